@@ -1,0 +1,23 @@
+# One place for how the project is compiled.
+add_library(crease_flags INTERFACE)
+set(CMAKE_C_STANDARD 11)
+set(CMAKE_C_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_C_VISIBILITY_PRESET hidden)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# No contraction of a * b + c: gcc, clang and every processor give the same bytes.
+target_compile_options(crease_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -ffp-contract=off
+  $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes -Wmissing-prototypes>)
+target_compile_definitions(crease_flags INTERFACE _POSIX_C_SOURCE=200809L)
+if(CREASE_WERROR)
+  target_compile_options(crease_flags INTERFACE -Werror)
+endif()
+if(CREASE_SANITIZE)
+  target_compile_options(crease_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -g -O1)
+  target_link_options(crease_flags INTERFACE -fsanitize=address,undefined)
+endif()

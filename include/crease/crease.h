@@ -1,0 +1,478 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/** @file crease.h
+ * The whole C interface of libcrease, in the order of the pipeline:
+ *
+ *   context -> cloud -> neighbours -> scores -> splines -> sheets -> files and figures
+ *
+ * Manners, the same everywhere:
+ *  - A function that can fail returns a crease_status; its result is the last argument and is set
+ *    only when CREASE_OK is returned (otherwise it is set to NULL). crease_context_message() then
+ *    holds one sentence: what, where, what to do.
+ *  - Objects are opaque, never change once made, and are freed by crease_<noun>_free(), which
+ *    accepts NULL. Pointers got from an object live as long as the object.
+ *  - Where options may be NULL, the defaults are taken: the same ones that
+ *    crease_<noun>_options_default() returns.
+ *  - Coordinates are doubles, packed x y z; lengths are in the unit of the cloud; angles in
+ * degrees.
+ *  - A context serves one call at a time; inside that call the library uses context threads. The
+ *    result never depends on the number of threads: it is the same bytes.
+ *  - The library never prints, never exits, never aborts and never touches the locale.
+ */
+#ifndef CREASE_CREASE_H
+#define CREASE_CREASE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define CREASE_API __attribute__((visibility("default")))
+#else
+#define CREASE_API
+#endif
+
+/* ------------------------------------------------------------------------------------ status -- */
+
+/** Every status: code, kind, sentence. The kind decides the exit code of the program. */
+#define CREASE_STATUS_TABLE(X)                                                                     \
+    X(CREASE_OK, CREASE_KIND_NONE, "no error")                                                     \
+    X(CREASE_ERROR_ARGUMENT, CREASE_KIND_USAGE, "an argument or option is out of its range")       \
+    X(CREASE_ERROR_NO_SUCH_FILE, CREASE_KIND_INPUT, "the file does not exist")                     \
+    X(CREASE_ERROR_CANNOT_READ, CREASE_KIND_INPUT, "the file cannot be read")                      \
+    X(CREASE_ERROR_FORMAT, CREASE_KIND_INPUT, "the file is not what its header says")              \
+    X(CREASE_ERROR_TRUNCATED, CREASE_KIND_INPUT, "the file ends too early")                        \
+    X(CREASE_ERROR_VALUE, CREASE_KIND_INPUT, "a coordinate is not a finite number")                \
+    X(CREASE_ERROR_TOO_FEW_POINTS, CREASE_KIND_INPUT, "the cloud has too few points")              \
+    X(CREASE_ERROR_DEGENERATE, CREASE_KIND_INPUT, "the points do not span a surface")              \
+    X(CREASE_ERROR_CANNOT_WRITE, CREASE_KIND_FAILURE, "the file cannot be written")                \
+    X(CREASE_ERROR_NO_MEMORY, CREASE_KIND_FAILURE, "memory ran out")                               \
+    X(CREASE_ERROR_CANCELLED, CREASE_KIND_FAILURE, "the work was cancelled")                       \
+    X(CREASE_ERROR_NUMERIC, CREASE_KIND_FAILURE, "the computation did not succeed")                \
+    X(CREASE_ERROR_UNSUPPORTED, CREASE_KIND_FAILURE, "this build cannot do that")
+
+/** What a caller can do about a status: nothing to do, mend the call, mend the input, or neither.
+ */
+typedef enum crease_kind {
+    CREASE_KIND_NONE,
+    CREASE_KIND_USAGE,
+    CREASE_KIND_INPUT,
+    CREASE_KIND_FAILURE
+} crease_kind;
+
+typedef enum crease_status {
+#define CREASE_STATUS_CODE(code, kind, sentence) code,
+    CREASE_STATUS_TABLE(CREASE_STATUS_CODE)
+#undef CREASE_STATUS_CODE
+} crease_status;
+
+/** The general sentence for a status; never NULL, also for numbers that are no status. */
+CREASE_API const char *crease_status_sentence(crease_status status);
+/** The kind of a status; CREASE_KIND_FAILURE for numbers that are no status. */
+CREASE_API crease_kind crease_status_kind(crease_status status);
+/** The version of the library, "major.minor.patch". */
+CREASE_API const char *crease_version(void);
+
+/* ----------------------------------------------------------------------------------- context -- */
+
+/** Threads, seed, messages and callbacks of a series of calls. */
+typedef struct crease_context crease_context;
+
+typedef struct crease_context_options {
+    int threads;   /**< number of threads, 1..1024; 0 = one for each processor */
+    uint64_t seed; /**< seed of every random draw */
+    /** Called now and then during long work, always from the calling thread; fraction is 0..1. */
+    void (*progress)(void *user, const char *stage, double fraction);
+    /** Asked now and then; non-zero ends the work with CREASE_ERROR_CANCELLED. */
+    int (*cancelled)(void *user);
+    /** Receives sentences about input that is usable but odd. */
+    void (*warn)(void *user, const char *sentence);
+    void *user; /**< handed to the callbacks */
+} crease_context_options;
+
+CREASE_API crease_context_options crease_context_options_default(void);
+CREASE_API crease_status crease_context_create(
+    const crease_context_options *options, crease_context **out);
+CREASE_API void crease_context_free(crease_context *context);
+/** The sentence of the last failed call: what, where, what to do. Empty when nothing failed. */
+CREASE_API const char *crease_context_message(const crease_context *context);
+/** The number of threads in force (never 0). */
+CREASE_API int crease_context_threads(const crease_context *context);
+CREASE_API uint64_t crease_context_seed(const crease_context *context);
+
+/* ------------------------------------------------------------------------------------- cloud -- */
+
+/** An unorganised set of points with optional unit normals and named scalar fields. */
+typedef struct crease_cloud crease_cloud;
+
+/** Element type of a scalar field, kept as read so that what is written is what was read. */
+typedef enum crease_type {
+    CREASE_TYPE_INT8,
+    CREASE_TYPE_UINT8,
+    CREASE_TYPE_INT16,
+    CREASE_TYPE_UINT16,
+    CREASE_TYPE_INT32,
+    CREASE_TYPE_UINT32,
+    CREASE_TYPE_FLOAT32,
+    CREASE_TYPE_FLOAT64
+} crease_type;
+
+/** Bytes of one element, 1 to 8. */
+CREASE_API size_t crease_type_size(crease_type type);
+
+/** One named value per point. */
+typedef struct crease_field {
+    const char *name;   /**< unique within a cloud, no white space */
+    crease_type type;   /**< element type of values */
+    const void *values; /**< count elements */
+} crease_field;
+
+/** What a cloud is made from; everything is copied. */
+typedef struct crease_cloud_parts {
+    size_t count;               /**< number of points, at most UINT32_MAX */
+    const double *points;       /**< count x 3, finite */
+    const double *normals;      /**< count x 3 or NULL */
+    const crease_field *fields; /**< field_count fields or NULL */
+    size_t field_count;
+    crease_type coordinate_type; /**< FLOAT32 or FLOAT64: how coordinates are written back */
+} crease_cloud_parts;
+
+/** Makes a cloud. Zero points are allowed here; the stages ask for what they need.
+ * Errors: ARGUMENT (missing points, doubled field names), VALUE (a coordinate is not finite),
+ * NO_MEMORY. O(n). */
+CREASE_API crease_status crease_cloud_create(
+    crease_context *context, const crease_cloud_parts *parts, crease_cloud **out);
+/** The same cloud with further fields; a field of the same name is replaced. O(n). */
+CREASE_API crease_status crease_cloud_with_fields(crease_context *context,
+    const crease_cloud *cloud, const crease_field *fields, size_t field_count, crease_cloud **out);
+CREASE_API void crease_cloud_free(crease_cloud *cloud);
+
+CREASE_API size_t crease_cloud_count(const crease_cloud *cloud);
+/** count x 3 coordinates. */
+CREASE_API const double *crease_cloud_points(const crease_cloud *cloud);
+/** count x 3 unit normals as read, or NULL. */
+CREASE_API const double *crease_cloud_normals(const crease_cloud *cloud);
+CREASE_API crease_type crease_cloud_coordinate_type(const crease_cloud *cloud);
+CREASE_API size_t crease_cloud_field_count(const crease_cloud *cloud);
+/** Field number index; name NULL when there is no such field. */
+CREASE_API crease_field crease_cloud_field(const crease_cloud *cloud, size_t index);
+/** The field of this name; name NULL when there is no such field. */
+CREASE_API crease_field crease_cloud_find_field(const crease_cloud *cloud, const char *name);
+/** One value of a field as a double. */
+CREASE_API double crease_field_value(const crease_field *field, size_t point);
+/** Lowest and highest coordinates, x y z each; zeros for an empty cloud. O(n). */
+CREASE_API void crease_cloud_bounds(const crease_cloud *cloud, double lowest[3], double highest[3]);
+
+/* -------------------------------------------------------------------------- reading clouds -- */
+
+typedef struct crease_read_options {
+    bool skip_invalid; /**< leave out points that are not finite (with a warning); default: error */
+} crease_read_options;
+
+CREASE_API crease_read_options crease_read_options_default(void);
+/** Reads a cloud: PLY, PCD, XYZ / TXT / CSV / ASC / PTS, or the vertices of OBJ, STL, OFF. The
+ * format is found by signature first, by the file name's extension second. "-" is standard input.
+ * Errors: NO_SUCH_FILE, CANNOT_READ, FORMAT, TRUNCATED, VALUE, NO_MEMORY. */
+CREASE_API crease_status crease_cloud_read(crease_context *context, const char *path,
+    const crease_read_options *options, crease_cloud **out);
+/** Name of the format of the file ("PLY", "STEP", ...), by signature first, or NULL. */
+CREASE_API const char *crease_file_format(const char *path);
+
+/* ------------------------------------------------------------------------------- neighbours -- */
+
+/** The K nearest neighbours of every point of a cloud. */
+typedef struct crease_neighbours crease_neighbours;
+
+/** Finds the k nearest points of every point, the point itself first (eq. 2 of the paper: Euclidean
+ * distance). Exact; equal distances are ordered by index, so the result is unique.
+ * k: 1..256 and at most the number of points. O(n log n). Errors: ARGUMENT, TOO_FEW_POINTS,
+ * NO_MEMORY, CANCELLED. */
+CREASE_API crease_status crease_neighbours_find(
+    crease_context *context, const crease_cloud *cloud, int k, crease_neighbours **out);
+CREASE_API void crease_neighbours_free(crease_neighbours *neighbours);
+CREASE_API size_t crease_neighbours_count(const crease_neighbours *neighbours);
+CREASE_API int crease_neighbours_k(const crease_neighbours *neighbours);
+/** The k neighbours of a point, nearest first. */
+CREASE_API const uint32_t *crease_neighbours_of(const crease_neighbours *neighbours, size_t point);
+
+/** A k-d tree over points, for queries at any place. Copies the points. */
+typedef struct crease_tree crease_tree;
+CREASE_API crease_status crease_tree_create(
+    crease_context *context, const double *points, size_t count, crease_tree **out);
+CREASE_API void crease_tree_free(crease_tree *tree);
+CREASE_API size_t crease_tree_count(const crease_tree *tree);
+/** The k nearest points of each query, nearest first, ties by index. indices: query_count x k;
+ * squared_distances: the same shape or NULL. k must not exceed the tree's count. */
+CREASE_API crease_status crease_tree_nearest(crease_context *context, const crease_tree *tree,
+    const double *queries, size_t query_count, int k, uint32_t *indices, double *squared_distances);
+/** All points within the radius of one place, by ascending index. *found is the number of all such
+ * points; at most capacity indices are stored. */
+CREASE_API crease_status crease_tree_within(const crease_tree *tree, const double place[3],
+    double radius, size_t capacity, uint32_t *indices, size_t *found);
+
+/* ------------------------------------------------------------------------------------ scores -- */
+
+/** What every point tells about a sharp edge near it. */
+typedef struct crease_scores crease_scores;
+
+typedef struct crease_detect_options {
+    int neighbours; /**< K: neighbours of a point, itself included; 4..256; default 16 */
+    int resamples;  /**< B: bootstrap resamples; 2..10000; default 100 */
+    double false_discovery_rate; /**< expected share of wrong features, 0..1; default 0.05 */
+} crease_detect_options;
+
+CREASE_API crease_detect_options crease_detect_options_default(void);
+/** Bootstrap variance of the normal of every point (eq. 3 and 4), and the decision which points
+ * are features. Errors: ARGUMENT, TOO_FEW_POINTS, DEGENERATE, NO_MEMORY, CANCELLED.
+ * O(n (log n + K B)). */
+CREASE_API crease_status crease_scores_compute(crease_context *context, const crease_cloud *cloud,
+    const crease_detect_options *options, crease_scores **out);
+CREASE_API void crease_scores_free(crease_scores *scores);
+CREASE_API size_t crease_scores_count(const crease_scores *scores);
+/** Bootstrap variance: trace of the covariance of the resampled unit normals, 0..1. */
+CREASE_API const double *crease_scores_variance(const crease_scores *scores);
+/** Unit normals of the neighbourhoods (sign arbitrary), count x 3. */
+CREASE_API const double *crease_scores_normals(const crease_scores *scores);
+/** 1 where the point is taken for a feature, else 0. */
+CREASE_API const uint8_t *crease_scores_features(const crease_scores *scores);
+
+/* ----------------------------------------------------------------------------------- splines -- */
+
+/** A B-spline curve in space of any order and knot vector. */
+typedef struct crease_curve crease_curve;
+
+/** order = degree + 1, 1..16; count control points >= order; count + order knots, not decreasing,
+ * no multiplicity above the order. control_points: count x 3. Errors: ARGUMENT, NO_MEMORY. */
+CREASE_API crease_status crease_curve_create(crease_context *context, int order, size_t count,
+    const double *knots, const double *control_points, crease_curve **out);
+CREASE_API void crease_curve_free(crease_curve *curve);
+CREASE_API int crease_curve_order(const crease_curve *curve);
+CREASE_API size_t crease_curve_count(const crease_curve *curve);
+CREASE_API const double *crease_curve_knots(const crease_curve *curve);
+CREASE_API const double *crease_curve_control_points(const crease_curve *curve);
+/** First and last parameter of the curve's domain. */
+CREASE_API void crease_curve_domain(const crease_curve *curve, double domain[2]);
+
+/** From which side a derivative is taken at a knot where it may jump. */
+typedef enum crease_side { CREASE_SIDE_RIGHT, CREASE_SIDE_LEFT } crease_side;
+
+/** Point and derivatives 0..derivatives at t: (derivatives + 1) x 3 numbers. Outside the domain t
+ * is moved to its border. Derivatives above the degree are zero. */
+CREASE_API void crease_curve_evaluate(
+    const crease_curve *curve, double t, crease_side side, int derivatives, double *out);
+
+/** A tensor-product B-spline surface (eq. 1) of any orders and knot vectors. */
+typedef struct crease_surface crease_surface;
+
+typedef struct crease_surface_parts {
+    int order[2];                 /**< orders k (u) and l (v), 1..16 */
+    size_t count[2];              /**< control points along u and v, each at least the order */
+    const double *knots[2];       /**< count + order knots each, not decreasing */
+    const double *control_points; /**< count[0] x count[1] x 3, v fastest */
+} crease_surface_parts;
+
+CREASE_API crease_status crease_surface_create(
+    crease_context *context, const crease_surface_parts *parts, crease_surface **out);
+CREASE_API void crease_surface_free(crease_surface *surface);
+/** The surface's parts; the pointers live as long as the surface. */
+CREASE_API crease_surface_parts crease_surface_parts_of(const crease_surface *surface);
+/** First and last parameter along direction 0 (u) or 1 (v). */
+CREASE_API void crease_surface_domain(
+    const crease_surface *surface, int direction, double domain[2]);
+/** Point and partial derivatives: out holds (derivatives + 1)^2 x 3 numbers, out[a][b] being the
+ * a-th derivative in u and b-th in v. sides: one for u, one for v. */
+CREASE_API void crease_surface_evaluate(const crease_surface *surface, const double uv[2],
+    const crease_side sides[2], int derivatives, double *out);
+/** The surface's point only. */
+CREASE_API void crease_surface_point(
+    const crease_surface *surface, const double uv[2], double point[3]);
+/** Unit normal, by limits where a partial derivative vanishes; sides as in evaluate. */
+CREASE_API void crease_surface_normal(const crease_surface *surface, const double uv[2],
+    const crease_side sides[2], double normal[3]);
+/** Multiplicity of the knot at t (0 when t is no knot). */
+CREASE_API int crease_surface_multiplicity(const crease_surface *surface, int direction, double t);
+/** Inserts the knot t `times` times along a direction: the same surface, a finer net.
+ * Based on: Boehm. Inserting new knots into B-spline curves. 1980. */
+CREASE_API crease_status crease_surface_insert_knot(crease_context *context,
+    const crease_surface *surface, int direction, double t, int times, crease_surface **out);
+/** Splits at t along a direction into two clamped surfaces that share their border control points
+ * exactly. t must lie inside the domain. */
+CREASE_API crease_status crease_surface_split(crease_context *context,
+    const crease_surface *surface, int direction, double t, crease_surface **lower,
+    crease_surface **upper);
+/** The surface with u and v exchanged. */
+CREASE_API crease_status crease_surface_transpose(
+    crease_context *context, const crease_surface *surface, crease_surface **out);
+
+/** Where a point falls on a surface. */
+typedef struct crease_foot {
+    double uv[2];    /**< parameters of the closest point */
+    double point[3]; /**< the closest point */
+    double distance; /**< from the point asked for, signed: positive along the surface's normal */
+} crease_foot;
+
+/** Orthogonal projection of count points onto the surface: the closest point of the whole surface,
+ * borders and creases included. Threaded. feet: count of them. */
+CREASE_API crease_status crease_surface_project(crease_context *context,
+    const crease_surface *surface, const double *points, size_t count, crease_foot *feet);
+
+/* ------------------------------------------------------------------------------------ sheets -- */
+
+/** One tensor-product surface fitted to a cloud, with its creases. */
+typedef struct crease_sheet crease_sheet;
+
+/** A line of constant parameter along which a sheet is sharp. */
+typedef struct crease_line {
+    int direction;    /**< 0: u is constant on the line (it runs along v), 1: v is constant */
+    double parameter; /**< the constant parameter */
+    double angle;     /**< mean dihedral angle of the faces beside it: 180 = flat, in degrees */
+    double standard_error; /**< of the line's position across itself, 0 when not known */
+} crease_line;
+
+/** How a cloud is turned so that it is a height field over x and y, the edge running along y. */
+typedef enum crease_orientation {
+    CREASE_ORIENTATION_AUTOMATIC, /**< main axes and edge direction found from the data */
+    CREASE_ORIENTATION_NONE,      /**< as it is: z is the height, the edge runs along x or y */
+    CREASE_ORIENTATION_GIVEN      /**< by the rotation in the options */
+} crease_orientation;
+
+/** The constants of the paper's Algorithm 1, the paper's values as defaults where it gives them. */
+typedef struct crease_averaging_options {
+    crease_detect_options detect;   /**< step 1: K and B */
+    crease_orientation orientation; /**< step 3; default automatic */
+    double rotation[9];             /**< step 3: M, row by row, for CREASE_ORIENTATION_GIVEN */
+    size_t net[2];            /**< step 4: control points along x and y, >= 4; default 6 x 6 */
+    int averaging_neighbours; /**< step 5: data points averaged, 1..256; default 2 */
+    int passes;               /**< step 5: passes, 1..1000; default 3 */
+    int marking_neighbours;   /**< step 7: data points averaged, 1..256; default 4 */
+    double mark_threshold;    /**< step 7: e; default 0.20 */
+    int row_threshold; /**< step 9: g, a row is repeated when more points are marked; default 4 */
+    int multiplicity;  /**< step 9: times a row stands in the net, 1..3; default 3 (= k - 1) */
+} crease_averaging_options;
+
+CREASE_API crease_averaging_options crease_averaging_options_default(void);
+/** Algorithm 1 of the paper, literally: "Sharp edge preservation using bicubic B-spline surfaces".
+ * Errors: ARGUMENT, TOO_FEW_POINTS, DEGENERATE, NO_MEMORY, CANCELLED. */
+CREASE_API crease_status crease_averaging_fit(crease_context *context, const crease_cloud *cloud,
+    const crease_averaging_options *options, crease_sheet **out);
+
+/** The same edge, done right: creases are knot lines of multiplicity 3 (degree), placed where the
+ * data show them, and the control points are a least-squares fit. */
+typedef struct crease_sheet_options {
+    crease_orientation orientation; /**< default automatic */
+    double rotation[9];             /**< for CREASE_ORIENTATION_GIVEN */
+    size_t net[2];    /**< control points along u and v; 0 0 = as many as the data ask for */
+    int order;        /**< order of both directions, 2..8; default 4 (bicubic) */
+    int creases;      /**< most crease lines in each direction; -1 = as many as are significant */
+    double smoothing; /**< weight of the thin-plate term; negative = found from the data */
+    double tolerance; /**< refine until the rms deviation is below; 0 = until only noise is left */
+} crease_sheet_options;
+
+CREASE_API crease_sheet_options crease_sheet_options_default(void);
+/** Errors: ARGUMENT, TOO_FEW_POINTS, DEGENERATE, NUMERIC, NO_MEMORY, CANCELLED. */
+CREASE_API crease_status crease_sheet_fit(crease_context *context, const crease_cloud *cloud,
+    const crease_sheet_options *options, crease_sheet **out);
+
+CREASE_API void crease_sheet_free(crease_sheet *sheet);
+CREASE_API const crease_surface *crease_sheet_surface(const crease_sheet *sheet);
+CREASE_API size_t crease_sheet_line_count(const crease_sheet *sheet);
+CREASE_API crease_line crease_sheet_line(const crease_sheet *sheet, size_t index);
+/** The curve in space of a crease line. The caller frees it. */
+CREASE_API crease_status crease_sheet_line_curve(
+    crease_context *context, const crease_sheet *sheet, size_t index, crease_curve **out);
+/** The rotation M (row by row) and the origin: local = M (point - origin). */
+CREASE_API void crease_sheet_frame(const crease_sheet *sheet, double rotation[9], double origin[3]);
+/** Number of data points the sheet was fitted to. */
+CREASE_API size_t crease_sheet_point_count(const crease_sheet *sheet);
+/** Step 11: every data point projected onto the sheet, point_count x 3. */
+CREASE_API const double *crease_sheet_projected(const crease_sheet *sheet);
+/** Signed distance of every data point to the sheet. */
+CREASE_API const double *crease_sheet_deviations(const crease_sheet *sheet);
+/** Bootstrap variance of every data point, or NULL when the method needed none. */
+CREASE_API const double *crease_sheet_variance(const crease_sheet *sheet);
+/** Splits the sheet at all its crease lines into smooth surfaces, u-major, that share their border
+ * control points exactly. *count surfaces; free each and the array with
+ * crease_surfaces_free(). */
+CREASE_API crease_status crease_sheet_faces(
+    crease_context *context, const crease_sheet *sheet, crease_surface ***out, size_t *count);
+CREASE_API void crease_surfaces_free(crease_surface **surfaces, size_t count);
+
+/* ------------------------------------------------------------------------------------ meshes -- */
+
+/** Triangles with shared vertices. */
+typedef struct crease_mesh crease_mesh;
+
+/** Triangulates surfaces so that the mesh stays within the tolerance (a length) of them; borders
+ * that coincide are meshed with the same points and share no vertices' normals (sharp edges stay
+ * sharp when shaded). tolerance 0: 1/2000 of the diagonal. */
+CREASE_API crease_status crease_mesh_create(crease_context *context,
+    const crease_surface *const *surfaces, size_t count, double tolerance, crease_mesh **out);
+CREASE_API void crease_mesh_free(crease_mesh *mesh);
+CREASE_API size_t crease_mesh_vertex_count(const crease_mesh *mesh);
+CREASE_API size_t crease_mesh_triangle_count(const crease_mesh *mesh);
+CREASE_API const double *crease_mesh_vertices(const crease_mesh *mesh);    /**< count x 3 */
+CREASE_API const double *crease_mesh_normals(const crease_mesh *mesh);     /**< count x 3 */
+CREASE_API const uint32_t *crease_mesh_triangles(const crease_mesh *mesh); /**< count x 3 */
+/** Number of the surface that each triangle belongs to. */
+CREASE_API const uint32_t *crease_mesh_owners(const crease_mesh *mesh);
+
+/* ----------------------------------------------------------------------------------- writing -- */
+
+/** Writes a cloud with its normals and fields: PLY (binary little endian) or XYZ / TXT / CSV / ASC
+ * / PTS by extension. Every writer writes beside the target first and then renames: a failure or a
+ * signal leaves the old file or none, never half of one. Errors: CANNOT_WRITE, ARGUMENT. */
+CREASE_API crease_status crease_cloud_write(
+    crease_context *context, const crease_cloud *cloud, const char *path);
+/** Writes a mesh: PLY, OBJ, STL (binary) or GLB (binary glTF 2.0) by extension. */
+CREASE_API crease_status crease_mesh_write(
+    crease_context *context, const crease_mesh *mesh, const char *path);
+/** Writes curves as polylines within the tolerance: PLY with elements `vertex` (x y z, crease) and
+ * `edge` (vertex1 vertex2), OBJ lines, or CSV, by extension. tolerance 0: 1/2000 of the diagonal.
+ */
+CREASE_API crease_status crease_curves_write(crease_context *context,
+    const crease_curve *const *curves, size_t count, double tolerance, const char *path);
+
+/* ----------------------------------------------------------------------------------- seeing -- */
+
+/** What a figure or the page shows. Everything is copied in. */
+typedef struct crease_scene crease_scene;
+
+CREASE_API crease_status crease_scene_create(
+    crease_context *context, const char *title, crease_scene **out);
+CREASE_API void crease_scene_free(crease_scene *scene);
+/** Adds a cloud: a layer of points, coloured by any of its fields. */
+CREASE_API crease_status crease_scene_add_cloud(
+    crease_context *context, crease_scene *scene, const char *name, const crease_cloud *cloud);
+/** Adds surfaces as one layer, and their control nets as another when nets is true. */
+CREASE_API crease_status crease_scene_add_surfaces(crease_context *context, crease_scene *scene,
+    const char *name, const crease_surface *const *surfaces, size_t count, bool nets);
+/** Adds curves, such as creases, as one layer. */
+CREASE_API crease_status crease_scene_add_curves(crease_context *context, crease_scene *scene,
+    const char *name, const crease_curve *const *curves, size_t count);
+
+typedef struct crease_figure_options {
+    int width, height;     /**< pixels (PNG) or points (SVG, PDF); default 1200 x 900 */
+    double azimuth;        /**< of the eye around z, degrees; default -60 */
+    double elevation;      /**< of the eye above the x-y plane, degrees; default 25 */
+    const char *colour_by; /**< field that colours the points, or NULL: the paper's green */
+    bool axes;             /**< draw the box with numbered axes; default true */
+} crease_figure_options;
+
+CREASE_API crease_figure_options crease_figure_options_default(void);
+/** Draws a scene as PNG, SVG or PDF by extension. */
+CREASE_API crease_status crease_figure_write(crease_context *context, const crease_scene *scene,
+    const crease_figure_options *options, const char *path);
+/** Writes a scene as one self-contained HTML page that works offline. */
+CREASE_API crease_status crease_page_write(
+    crease_context *context, const crease_scene *scene, const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* What every test begins with: cmocka in its required include order, and a context. */
+#ifndef CREASE_TESTS_GIVEN_H
+#define CREASE_TESTS_GIVEN_H
+
+#include "base/context.h"
+#include "crease/crease.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static inline crease_context *given_context_with_threads(int threads)
+{
+    crease_context_options options = crease_context_options_default();
+    options.threads = threads;
+    crease_context *context = NULL;
+    assert_int_equal(crease_context_create(&options, &context), CREASE_OK);
+    return context;
+}
+
+static inline crease_context *given_context(void)
+{
+    return given_context_with_threads(2);
+}
+
+#define assert_near(a, b, tolerance)                                                               \
+    do {                                                                                           \
+        const double near_a = (a), near_b = (b), near_t = (tolerance);                             \
+        if (!(fabs(near_a - near_b) <= near_t))                                                    \
+            fail_msg("%s = %.17g, expected %.17g within %g", #a, near_a, near_b, near_t);          \
+    } while (0)
+
+#endif
