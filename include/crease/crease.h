@@ -33,8 +33,10 @@ extern "C" {
 
 #if defined(__GNUC__)
 #define CREASE_API __attribute__((visibility("default")))
+#define CREASE_FORMAT(text, first) __attribute__((format(printf, text, first)))
 #else
 #define CREASE_API
+#define CREASE_FORMAT(text, first)
 #endif
 
 /* ------------------------------------------------------------------------------------ status -- */
@@ -101,6 +103,10 @@ CREASE_API crease_status crease_context_create(
 CREASE_API void crease_context_free(crease_context *context);
 /** The sentence of the last failed call: what, where, what to do. Empty when nothing failed. */
 CREASE_API const char *crease_context_message(const crease_context *context);
+/** Sets that sentence and returns the status, for code built on the library that fails in the same
+ * way: `return crease_context_fail(context, CREASE_ERROR_ARGUMENT, "%s: ...", path)`. */
+CREASE_API crease_status crease_context_fail(
+    crease_context *context, crease_status status, const char *format, ...) CREASE_FORMAT(3, 4);
 /** The number of threads in force (never 0). */
 CREASE_API int crease_context_threads(const crease_context *context);
 CREASE_API uint64_t crease_context_seed(const crease_context *context);
@@ -428,6 +434,9 @@ CREASE_API const uint32_t *crease_mesh_owners(const crease_mesh *mesh);
  * signal leaves the old file or none, never half of one. Errors: CANNOT_WRITE, ARGUMENT. */
 CREASE_API crease_status crease_cloud_write(
     crease_context *context, const crease_cloud *cloud, const char *path);
+/** Writes bytes to a file, in the same careful way. */
+CREASE_API crease_status crease_file_write(
+    crease_context *context, const char *path, const void *bytes, size_t size);
 /** Writes a mesh: PLY, OBJ, STL (binary) or GLB (binary glTF 2.0) by extension. */
 CREASE_API crease_status crease_mesh_write(
     crease_context *context, const crease_mesh *mesh, const char *path);

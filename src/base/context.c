@@ -55,7 +55,8 @@ uint64_t crease_context_seed(const crease_context *context)
     return context->options.seed;
 }
 
-crease_status crease_fail(crease_context *context, crease_status status, const char *format, ...)
+crease_status crease_context_fail(
+    crease_context *context, crease_status status, const char *format, ...)
 {
     va_list arguments;
     va_start(arguments, format);

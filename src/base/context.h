@@ -17,10 +17,9 @@ struct crease_context {
     atomic_long allocations; /* allocations left before one fails on purpose; negative: no limit */
 };
 
-/* Stores the sentence "what: where; what to do" and returns the status, so that a caller can write
- * `return crease_fail(...)`. Call it from the calling thread only. */
-crease_status crease_fail(crease_context *context, crease_status status, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+/* The library's own short name for storing a sentence "where: what; what to do" and returning the
+ * status. From the calling thread only. */
+#define crease_fail crease_context_fail
 
 /* Hands a sentence about odd but usable input to the caller. */
 void crease_warn(crease_context *context, const char *format, ...)
