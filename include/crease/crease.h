@@ -174,6 +174,45 @@ CREASE_API double crease_field_value(const crease_field *field, size_t point);
 /** Lowest and highest coordinates, x y z each; zeros for an empty cloud. O(n). */
 CREASE_API void crease_cloud_bounds(const crease_cloud *cloud, double lowest[3], double highest[3]);
 
+/* ----------------------------------------------------------------------------------- shapes -- */
+
+/** The cube of the paper: the unit cube with every face on a square grid of this many intervals
+ * (1..8192; the paper: 32), no point doubled: 6 intervals^2 + 2 points. Errors: ARGUMENT,
+ * NO_MEMORY. */
+CREASE_API crease_status crease_shape_cube(
+    crease_context *context, int intervals, crease_cloud **out);
+
+/** A sample of the cube around its edge x = 1, z = 1, as in the paper. */
+typedef struct crease_sample_options {
+    int across;       /**< points across the edge, 2..10000; default 17 */
+    int along;        /**< points along the edge, 1..10000; default 3 */
+    bool roof;        /**< turned by 45 degrees and moved so that the edge is x = z = 0 and both
+                           faces fall away from it; default true */
+    double spacing;   /**< h, distance of neighbouring points; default 1/32 */
+    double shift;     /**< moves the points across the edge, in spacings; default 0: centred */
+    double noise;     /**< d: the moved points go along z by N(0, (h d)^2); default 0 */
+    int moved;        /**< how many points the noise moves; default 13 */
+    uint64_t variant; /**< which noise: another one for each number and seed, below 2^32 */
+} crease_sample_options;
+
+CREASE_API crease_sample_options crease_sample_options_default(void);
+/** Errors: ARGUMENT, NO_MEMORY. */
+CREASE_API crease_status crease_shape_sample(
+    crease_context *context, const crease_sample_options *options, crease_cloud **out);
+
+/** A panel of 0.8 x 0.6 with one crease along no axis, as a scanner would see it: random points
+ * on two sagging faces, noise in every direction, a few outliers. */
+typedef struct crease_panel_options {
+    size_t count;    /**< points, at least 4; default 20000 */
+    double noise;    /**< standard deviation in mean spacings; default 0.2 */
+    double outliers; /**< share of the points that lie off the panel, 0..1; default 0.005 */
+} crease_panel_options;
+
+CREASE_API crease_panel_options crease_panel_options_default(void);
+/** Errors: ARGUMENT, NO_MEMORY. */
+CREASE_API crease_status crease_shape_panel(
+    crease_context *context, const crease_panel_options *options, crease_cloud **out);
+
 /* -------------------------------------------------------------------------- reading clouds -- */
 
 typedef struct crease_read_options {
