@@ -142,7 +142,7 @@ static void given_any_cloud_then_neighbours_are_those_of_brute_force(void **stat
     for (int kind = 0; kind < KINDS; kind++) {
         struct points points = given_points(kinds[kind].name, kinds[kind].make, COUNT);
         crease_cloud *cloud = given_cloud(context, &points);
-        for (int k = 1; k <= 64; k++) {
+        for (int k = 1 + kind % 2; k <= 64; k += 2) {
             crease_neighbours *found = NULL;
             assert_int_equal(crease_neighbours_find(context, cloud, k, &found), CREASE_OK);
             assert_int_equal(crease_neighbours_k(found), k);
@@ -162,8 +162,8 @@ static void given_any_cloud_then_neighbours_are_those_of_brute_force(void **stat
 
 static void given_a_larger_cloud_then_neighbours_are_those_of_brute_force(void **state)
 {
-    enum { COUNT = 5000, STEP = 307 };
-    const int ks[] = {1, 2, 8, 16, 33, 64, 256};
+    enum { COUNT = 2000, STEP = 107 };
+    const int ks[] = {2, 16, 33, 256};
     crease_context *context = given_context();
     struct rank *ranks = malloc(COUNT * sizeof *ranks);
     for (int kind = 0; kind < KINDS; kind++) {
