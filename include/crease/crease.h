@@ -515,6 +515,12 @@ CREASE_API crease_figure_options crease_figure_options_default(void);
 /** Draws a scene as PNG, SVG or PDF by extension. */
 CREASE_API crease_status crease_figure_write(crease_context *context, const crease_scene *scene,
     const crease_figure_options *options, const char *path);
+/** Draws several scenes as the panels (a), (b), (c) ... of one figure, row by row. options: count of
+ * them, or NULL for the defaults; every panel has the width and height of the first. count: 1..26.
+ */
+CREASE_API crease_status crease_figure_panels_write(crease_context *context,
+    const crease_scene *const *scenes, const crease_figure_options *options, size_t count,
+    int columns, const char *path);
 /** Writes a scene as one self-contained HTML page that works offline. */
 CREASE_API crease_status crease_page_write(
     crease_context *context, const crease_scene *scene, const char *path);

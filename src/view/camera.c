@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+#include "view/camera.h"
+
+#include <math.h>
+#include <string.h>
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+crease_camera crease_camera_at(double azimuth, double elevation, const double centre[3])
+{
+    const double degree = 3.14159265358979323846 / 180;
+    const double ca = cos(azimuth * degree), sa = sin(azimuth * degree);
+    const double ce = cos(elevation * degree), se = sin(elevation * degree);
+    crease_camera camera = {.right = {-sa, ca, 0},
+        .up = {-se * ca, -se * sa, ce},
+        .eye = {ce * ca, ce * sa, se},
+        .scale = 1};
+    memcpy(camera.centre, centre, sizeof camera.centre);
+    return camera;
+}
+
+crease_spot crease_camera_project(const crease_camera *camera, const double point[3])
+{
+    const double *c = camera->centre;
+    const double from[3] = {point[0] - c[0], point[1] - c[1], point[2] - c[2]};
+    return (crease_spot){camera->x + camera->scale * dot(camera->right, from),
+        camera->y - camera->scale * dot(camera->up, from), -camera->scale * dot(camera->eye, from)};
+}
