@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* Based on: Cox. The numerical evaluation of B-splines. 1972; de Boor. On calculating with
+ * B-splines. 1972; Piegl, Tiller. The NURBS Book. 1997, section 2.5; Ramshaw. Blossoms are polar
+ * forms. 1989. */
+#include "spline/basis.h"
+
+#include <string.h>
+
+double crease_basis_clamp(const double *knots, int order, size_t count, double t)
+{
+    const double first = knots[order - 1];
+    const double last = knots[count];
+    return t < first ? first : (t > last ? last : t);
+}
+
+/* The largest index in low..high - 1 whose knot is below t (or equal, when `equal`), given that
+ * this holds at low. */
+static size_t last_knot_below(const double *knots, size_t low, size_t high, double t, bool equal)
+{
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (knots[middle] < t || (equal && knots[middle] == t))
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+size_t crease_basis_span(const double *knots, int order, size_t count, double t, crease_side side)
+{
+    const size_t first = (size_t)order - 1;
+    t = crease_basis_clamp(knots, order, count, t);
+    const bool right = t <= knots[first] || (side == CREASE_SIDE_RIGHT && t < knots[count]);
+    return last_knot_below(knots, first, count, t, right);
+}
+
+/* One step of the triangular scheme: functions of order j become those of order j + 1. Both factors
+ * are divided by a length that holds the span, so never by zero. */
+static void raise_order(const double *knots, size_t span, double t, size_t j, double *values)
+{
+    double saved = 0.0;
+    for (size_t r = 0; r < j; r++) {
+        const double right = knots[span + r + 1];
+        const double left = knots[span + 1 + r - j];
+        const double share = values[r] / (right - left);
+        values[r] = saved + (right - t) * share;
+        saved = (t - left) * share;
+    }
+    values[j] = saved;
+}
+
+void crease_basis_values(const double *knots, int order, size_t span, double t, double *values)
+{
+    values[0] = 1.0;
+    for (size_t j = 1; j < (size_t)order; j++)
+        raise_order(knots, span, t, j, values);
+}
+
+void crease_basis_blossom(
+    const double *knots, int order, size_t span, const double *arguments, double *weights)
+{
+    weights[0] = 1.0;
+    for (size_t j = 1; j < (size_t)order; j++)
+        raise_order(knots, span, arguments[j - 1], j, weights);
+}
+
+/* One differentiation: a spline of order j + 1 has the derivative sum_r d_r N_r of order j with
+ * d_r = j (c_r - c_{r-1}) / length. Read backwards, derivatives of order j become those of order
+ * j + 1, one higher. */
+static void differentiate(const double *knots, size_t span, size_t j, double *values)
+{
+    double saved = 0.0;
+    for (size_t r = 0; r < j; r++) {
+        const double share =
+            (double)j * values[r] / (knots[span + r + 1] - knots[span + 1 + r - j]);
+        values[r] = saved - share;
+        saved = share;
+    }
+    values[j] = saved;
+}
+
+void crease_basis_derivatives(
+    const double *knots, int order, size_t span, double t, int derivatives, double *out)
+{
+    const size_t size = (size_t)order;
+    memset(out, 0, ((size_t)derivatives + 1) * size * sizeof *out);
+    for (size_t d = 0; d <= (size_t)derivatives && d < size; d++) {
+        double *const row = out + d * size;
+        row[0] = 1.0;
+        for (size_t j = 1; j < size - d; j++)
+            raise_order(knots, span, t, j, row);
+        for (size_t j = size - d; j < size; j++)
+            differentiate(knots, span, j, row);
+    }
+}
