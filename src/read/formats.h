@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* The readers, one for each format, and how the right one is found. A reader gets a source that is
+ * not empty; its status and message are those of crease_cloud_read. */
+#ifndef CREASE_READ_FORMATS_H
+#define CREASE_READ_FORMATS_H
+
+#include "read/source.h"
+
+typedef crease_status crease_reader(crease_context *context, const crease_source *source,
+    const crease_read_options *options, crease_cloud **out);
+
+crease_reader crease_ply_read;
+crease_reader crease_pcd_read;
+crease_reader crease_xyz_read;
+crease_reader crease_obj_read;
+crease_reader crease_stl_read;
+crease_reader crease_off_read;
+
+typedef struct crease_format {
+    const char *name;        /* "PLY" */
+    const char *description; /* "a CAD model (STEP)" */
+    crease_reader *read;     /* NULL: no cloud */
+} crease_format;
+
+/* The format of a file of which the first bytes are known: by signature first, by extension
+ * second, by looking like rows of numbers third. NULL when nothing fits. */
+const crease_format *crease_format_find(
+    const char *path, const char *head, size_t head_size, size_t file_size);
+
+/* Reads the cloud of a source in the format that it has. */
+crease_status crease_source_read(crease_context *context, const crease_source *source,
+    const crease_read_options *options, crease_cloud **out);
+
+#endif
