@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+#include "averaging/twoplane.h"
+
+#include "base/select.h"
+#include "base/vector.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { GUESSES = 4, ROUNDS = 60 };
+
+static const double LEAST_SINE = 0.0871557427476582; /* of 5 degrees */
+static const double LEAST_GAIN = 0.5; /* of the mean distance, two planes against one */
+
+/* Points with the share (weight) that each plane has in them, and room to find medians. */
+typedef struct work {
+    const double *points;
+    size_t count;
+    double *share[2], *nearest, *sorted;
+    double least; /* below this a distance is rounding */
+} work;
+
+static double distance(const double normal[3], const double centre[3], const double *p)
+{
+    const double d[3] = {p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]};
+    return fabs(crease_vector_dot(d, normal));
+}
+
+static double median_of_nearest(work *w)
+{
+    memcpy(w->sorted, w->nearest, w->count * sizeof *w->sorted);
+    return crease_select(w->sorted, w->count, w->count / 2);
+}
+
+/* Shares that pass from one plane to the other across the middle, in a direction. */
+static void guess(work *w, const double mean[3], const double direction[3], double width)
+{
+    for (size_t i = 0; i < w->count; i++) {
+        const double *const p = w->points + 3 * i;
+        const double d[3] = {p[0] - mean[0], p[1] - mean[1], p[2] - mean[2]};
+        const double t = 0.5 + crease_vector_dot(d, direction) / width;
+        w->share[1][i] = fmin(1.0, fmax(0.0, t));
+        w->share[0][i] = 1.0 - w->share[1][i];
+    }
+}
+
+static void fit_planes(work *w, crease_twoplane *planes)
+{
+    for (int k = 0; k < 2; k++) {
+        double values[3], axes[9];
+        crease_vector_main_axes(w->points, w->share[k], w->count, planes->centre[k], values, axes);
+        memcpy(planes->normal[k], axes, sizeof planes->normal[k]);
+    }
+    for (size_t i = 0; i < w->count; i++) {
+        const double *const p = w->points + 3 * i;
+        w->nearest[i] = fmin(distance(planes->normal[0], planes->centre[0], p),
+            distance(planes->normal[1], planes->centre[1], p));
+    }
+}
+
+/* The share of a plane in a point: the likelihood among the two, less for far points (Cauchy). */
+static void share_out(work *w, const crease_twoplane *planes, double scale)
+{
+    for (size_t i = 0; i < w->count; i++) {
+        double r[2];
+        for (int k = 0; k < 2; k++)
+            r[k] = distance(planes->normal[k], planes->centre[k], w->points + 3 * i) / scale;
+        for (int k = 0; k < 2; k++) {
+            const double odds = exp(fmin(700.0, 0.5 * (r[k] * r[k] - r[1 - k] * r[1 - k])));
+            w->share[k][i] = 1.0 / ((1.0 + odds) * (1.0 + r[k] * r[k] / 9.0));
+        }
+    }
+}
+
+static double mean_of_nearest(const work *w)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < w->count; i++)
+        sum += w->nearest[i];
+    return sum / (double)w->count;
+}
+
+/* Expectation and maximisation from the shares at hand; the mean distance reached. */
+static double settle(work *w, crease_twoplane *planes)
+{
+    double before = INFINITY;
+    for (int round = 0; round < ROUNDS; round++) {
+        fit_planes(w, planes);
+        planes->spread = median_of_nearest(w);
+        const double now = mean_of_nearest(w);
+        if (fabs(before - now) <= 1e-12 * now)
+            break;
+        before = now;
+        share_out(w, planes, fmax(w->least, 1.4826 * planes->spread));
+    }
+    return mean_of_nearest(w);
+}
+
+/* The edge: the point nearest to `mean` on both planes, and the ways from it into the faces. */
+static bool meet(crease_twoplane *planes, const double mean[3], double extent)
+{
+    double(*const n)[3] = planes->normal;
+    crease_vector_cross(n[0], n[1], planes->direction);
+    const double sine = crease_vector_length(planes->direction);
+    if (sine < LEAST_SINE)
+        return false;
+    crease_vector_normalise(planes->direction);
+    double step[2][3], height[2];
+    for (int k = 0; k < 2; k++) {
+        const double d[3] = {planes->centre[k][0] - mean[0], planes->centre[k][1] - mean[1],
+            planes->centre[k][2] - mean[2]};
+        height[k] = crease_vector_dot(d, n[k]);
+        crease_vector_cross(planes->direction, n[k], step[k]);
+    }
+    for (int c = 0; c < 3; c++)
+        planes->edge[c] = mean[c] + (height[1] * step[0][c] - height[0] * step[1][c]) / sine;
+    for (int k = 0; k < 2; k++) {
+        for (int c = 0; c < 3; c++)
+            planes->inward[k][c] = planes->centre[k][c] - planes->edge[c];
+        const double along = crease_vector_dot(planes->inward[k], planes->direction);
+        for (int c = 0; c < 3; c++)
+            planes->inward[k][c] -= along * planes->direction[c];
+        crease_vector_normalise(planes->inward[k]);
+    }
+    return crease_vector_distance(planes->edge, mean) < extent;
+}
+
+static double mean_distance_to_one(
+    const double *points, size_t count, const double mean[3], const double normal[3])
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < count; i++)
+        sum += distance(normal, mean, points + 3 * i);
+    return sum / (double)count;
+}
+
+bool crease_twoplane_fit(const double *points, size_t count, double *scratch, crease_twoplane *out)
+{
+    double mean[3], values[3], axes[9];
+    crease_vector_main_axes(points, NULL, count, mean, values, axes);
+    const double extent = 3.0 * sqrt(fmax(0.0, values[0] + values[1] + values[2]));
+    work w = {.points = points,
+        .count = count,
+        .share = {scratch, scratch + count},
+        .nearest = scratch + 2 * count,
+        .sorted = scratch + 3 * count,
+        .least = fmax(DBL_MIN, 1e-12 * extent)};
+    double best = INFINITY;
+    for (int g = 0; g < GUESSES; g++) {
+        const double angle = g * 0.78539816339744831;
+        double direction[3];
+        for (int c = 0; c < 3; c++)
+            direction[c] = cos(angle) * axes[6 + c] + sin(angle) * axes[3 + c];
+        guess(&w, mean, direction, 0.25 * extent);
+        crease_twoplane planes;
+        const double reached = settle(&w, &planes);
+        if (reached < best) {
+            best = reached;
+            *out = planes;
+        }
+    }
+    const double one = mean_distance_to_one(points, count, mean, axes);
+    return best < LEAST_GAIN * one && one > 1e-12 * extent && meet(out, mean, extent);
+}
