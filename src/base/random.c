@@ -3,16 +3,18 @@
 
 #include "base/random.h"
 
+#include "base/simd.h"
+
 #include <math.h>
 
-static uint32_t multiply(uint32_t a, uint32_t b, uint32_t *high)
+CREASE_INLINE uint32_t multiply(uint32_t a, uint32_t b, uint32_t *high)
 {
     const uint64_t product = (uint64_t)a * b;
     *high = (uint32_t)(product >> 32);
     return (uint32_t)product;
 }
 
-void crease_random_block(uint64_t seed, uint64_t stream, uint64_t block, uint32_t out[4])
+CREASE_INLINE void make_block(uint64_t seed, uint64_t stream, uint64_t block, uint32_t *out)
 {
     uint32_t c0 = (uint32_t)block, c1 = (uint32_t)(block >> 32);
     uint32_t c2 = (uint32_t)stream, c3 = (uint32_t)(stream >> 32);
@@ -26,6 +28,18 @@ void crease_random_block(uint64_t seed, uint64_t stream, uint64_t block, uint32_
         k0 += 0x9E3779B9u, k1 += 0xBB67AE85u;
     }
     out[0] = c0, out[1] = c1, out[2] = c2, out[3] = c3;
+}
+
+void crease_random_block(uint64_t seed, uint64_t stream, uint64_t block, uint32_t out[4])
+{
+    make_block(seed, stream, block, out);
+}
+
+CREASE_VECTORISED void crease_random_blocks(
+    uint64_t seed, uint64_t stream, uint64_t first, size_t count, uint32_t *out)
+{
+    for (size_t i = 0; i < count; i++)
+        make_block(seed, stream, first + i, out + 4 * i);
 }
 
 static uint32_t word(uint64_t seed, uint64_t stream, uint64_t draw)

@@ -9,10 +9,14 @@
 #ifndef CREASE_BASE_RANDOM_H
 #define CREASE_BASE_RANDOM_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 /* Four independent 32-bit numbers for block number `block` of a stream. */
 void crease_random_block(uint64_t seed, uint64_t stream, uint64_t block, uint32_t out[4]);
+/* Blocks first .. first + count - 1 of a stream, one after the other: 4 x count numbers. */
+void crease_random_blocks(
+    uint64_t seed, uint64_t stream, uint64_t first, size_t count, uint32_t *out);
 /* Uniform in [0, 1). */
 double crease_random_uniform(uint64_t seed, uint64_t stream, uint64_t draw);
 /* Uniform in 0..n-1, n > 0; bias below n / 2^32. */

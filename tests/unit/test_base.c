@@ -23,6 +23,17 @@ static void given_the_published_vectors_then_random_blocks_agree(void **state)
     assert_int_equal(out[3], 0x6d5451fd);
 }
 
+static void given_a_run_of_blocks_then_each_is_the_block_of_its_number(void **state)
+{
+    enum { COUNT = 37 };
+    uint32_t run[4 * COUNT], block[4];
+    crease_random_blocks(5, 9, UINT32_MAX - 10, COUNT, run);
+    for (size_t i = 0; i < COUNT; i++) {
+        crease_random_block(5, 9, (uint64_t)UINT32_MAX - 10 + i, block);
+        assert_memory_equal(block, run + 4 * i, sizeof block);
+    }
+}
+
 static void given_many_draws_then_moments_are_those_of_the_distribution(void **state)
 {
     enum { COUNT = 200000 };
@@ -112,6 +123,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(given_the_published_vectors_then_random_blocks_agree),
+        cmocka_unit_test(given_a_run_of_blocks_then_each_is_the_block_of_its_number),
         cmocka_unit_test(given_many_draws_then_moments_are_those_of_the_distribution),
         cmocka_unit_test(given_any_number_of_threads_then_every_item_is_done_once),
         cmocka_unit_test(given_a_caller_who_stops_then_work_ends_cancelled),

@@ -1,0 +1,21 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* Vector instructions by the compiler: a function marked CREASE_VECTORISED is compiled for several
+ * instruction sets and the best one is taken when the program starts. Products and sums are never
+ * contracted (see cmake/flags.cmake) and their order is that of the source, so all of them give the
+ * same bytes. */
+#ifndef CREASE_BASE_SIMD_H
+#define CREASE_BASE_SIMD_H
+
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) &&       \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define CREASE_VECTORISED __attribute__((target_clones("avx512f", "avx2", "default")))
+#else
+#define CREASE_VECTORISED
+#endif
+
+/* For the helpers of such functions: they must become part of each version. */
+#define CREASE_INLINE static inline __attribute__((always_inline))
+
+#endif
