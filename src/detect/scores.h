@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* What every point tells about a sharp edge near it. Internal view. */
+#ifndef CREASE_DETECT_SCORES_H
+#define CREASE_DETECT_SCORES_H
+
+#include "detect/neighbourhood.h"
+
+struct crease_scores {
+    size_t count;
+    double *variance;  /* count */
+    double *normals;   /* count x 3 */
+    uint8_t *features; /* count */
+};
+
+/* Room for the normals of the resamples of one neighbourhood. */
+typedef struct crease_resamples {
+    size_t room;       /* B */
+    double *values[3]; /* components of the normals, room each */
+    uint32_t *pending; /* resamples that have no normal yet, room */
+} crease_resamples;
+
+/* Bootstrap of the normal of one neighbourhood. seed, stream: of the random draws. */
+typedef struct crease_normal_bootstrap {
+    double normal[3]; /* of the whole neighbourhood, unit; sign arbitrary */
+    double mean[3];   /* eq. 3: mean of the resampled normals, turned to the side of `normal` */
+    double variance;  /* eq. 4: trace of their covariance */
+    int degenerate;   /* the neighbours lie on a line or in a point: normal arbitrary, variance 0 */
+} crease_normal_bootstrap;
+
+void crease_normal_bootstrap_compute(const crease_neighbourhood *neighbourhood, uint64_t seed,
+    uint64_t stream, crease_resamples *resamples, crease_normal_bootstrap *out);
+
+#endif

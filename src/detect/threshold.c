@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* On smooth ground the logarithm of the variance is close to normally distributed: its centre
+ * follows from noise, spacing and K, its width from K. Both are read off the lower half of all
+ * values, which edges do not reach: the median and the 16th percentile. Each point's probability
+ * under this null then goes through the step-up rule for the false discovery rate. On data without
+ * noise the null is a point at zero, so a least variance is asked for as well: that of an edge
+ * where the normals turn by ten degrees.
+ *
+ * Based on: Benjamini, Hochberg. Controlling the false discovery rate. 1995.
+ * Based on: Efron. Large-scale simultaneous hypothesis testing: the choice of a null hypothesis.
+ * 2004 (the null from the data). */
+#include "detect/threshold.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A histogram of ln(variance): bins of 1/50 from e^-92, which stands for zero, to 1. */
+enum { BINS = 4600, PER_UNIT = 50 };
+
+static const double lowest = -92.0;
+
+static size_t bin_of(double variance)
+{
+    const double place = variance > 0 ? (log(variance) - lowest) * PER_UNIT : 0;
+    return place < 0 ? 0 : place < BINS ? (size_t)place : BINS - 1;
+}
+
+static double value_of(double bin)
+{
+    return lowest + bin / PER_UNIT;
+}
+
+/* ln(variance) below which the share of all points lies, interpolated within its bin. */
+static double quantile(const size_t *histogram, size_t count, double share)
+{
+    const double wanted = share * (double)count;
+    double below = 0;
+    for (size_t bin = 0; bin < BINS; bin++) {
+        const double here = (double)histogram[bin];
+        if (here > 0 && below + here >= wanted)
+            return value_of((double)bin + (wanted - below) / here);
+        below += here;
+    }
+    return 0;
+}
+
+/* Variance over an edge that the normals turn around by ten degrees, with evenly spread neighbours:
+ * heights |x| tan(5 degrees) for x uniform in -1..1 have a slope of variance 0.3 tan^2 / k. */
+static double least_variance(int k)
+{
+    const double tangent = 0.08748866352592401;
+    return 0.3 * tangent * tangent / k;
+}
+
+/* The first bin so that of the points from it on, noise explains a share below the rate. */
+static size_t step_up(
+    const size_t *histogram, size_t count, double centre, double width, double rate)
+{
+    size_t found = 0, first = BINS;
+    for (size_t bin = BINS; bin-- > 0;) {
+        found += histogram[bin];
+        const double score = (value_of((double)bin) - centre) / width;
+        const double chance = 0.5 * erfc(score * 0.70710678118654752);
+        if (chance * (double)count <= rate * (double)found)
+            first = bin;
+    }
+    return first;
+}
+
+double crease_threshold_find(const double *variance, size_t count, int k, double rate)
+{
+    size_t histogram[BINS];
+    memset(histogram, 0, sizeof histogram);
+    for (size_t i = 0; i < count; i++)
+        histogram[bin_of(variance[i])]++;
+    const double centre = quantile(histogram, count, 0.5);
+    const double width = fmax(centre - quantile(histogram, count, 0.1587), 1.0 / PER_UNIT);
+    const size_t first = step_up(histogram, count, centre, width, rate);
+    if (first == BINS)
+        return INFINITY;
+    return fmax(exp(value_of((double)first)), least_variance(k));
+}
