@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "view/key.h"
 #include "view/lettering.h"
+#include "view/palette.h"
 #include "view/text.h"
 
 #include <math.h>
@@ -31,23 +32,6 @@ typedef struct drawing {
 } drawing;
 
 /* --------------------------------------------------------------------------------- colours -- */
-
-static crease_colour layer_colour(const crease_scene *scene, size_t index)
-{
-    static const crease_colour clouds[] = {
-        {0.10, 0.62, 0.22}, {0.93, 0.55, 0.10}, {0.45, 0.30, 0.75}, {0.05, 0.55, 0.65}};
-    static const crease_colour nets[] = {{0.84, 0.12, 0.12}, {0.60, 0.10, 0.45}};
-    static const crease_colour surfaces[] = {{0.74, 0.81, 0.93}, {0.93, 0.86, 0.74}};
-    const crease_layer_kind kind = scene->layers[index].kind;
-    size_t before = 0;
-    for (size_t i = 0; i < index; i++)
-        before += scene->layers[i].kind == kind;
-    if (kind == CREASE_LAYER_POINTS)
-        return clouds[before % 4];
-    if (kind == CREASE_LAYER_NET)
-        return nets[before % 2];
-    return kind == CREASE_LAYER_SURFACE ? surfaces[before % 2] : (crease_colour){0.11, 0.11, 0.15};
-}
 
 static crease_field colouring_field(const crease_layer *layer, const char *name)
 {
@@ -109,7 +93,7 @@ static void shorten(const char *text, char *out, size_t size)
 static crease_entry entry_of(const drawing *d, size_t index)
 {
     const crease_layer *layer = &d->panel->scene->layers[index];
-    crease_entry entry = {.colour = layer_colour(d->panel->scene, index),
+    crease_entry entry = {.colour = crease_palette_of_layer(d->panel->scene, index),
         .dot = layer->kind == CREASE_LAYER_POINTS || layer->kind == CREASE_LAYER_NET,
         .line = layer->kind == CREASE_LAYER_NET || layer->kind == CREASE_LAYER_CURVES,
         .patch = layer->kind == CREASE_LAYER_SURFACE,
@@ -269,7 +253,7 @@ static void picture_cloud(const drawing *d, size_t index)
 {
     const crease_layer *layer = &d->panel->scene->layers[index];
     const crease_field field = field_of(d, layer);
-    const crease_colour plain = layer_colour(d->panel->scene, index);
+    const crease_colour plain = crease_palette_of_layer(d->panel->scene, index);
     const double *points = crease_cloud_points(layer->cloud);
     const size_t count = crease_cloud_count(layer->cloud);
     const double radius = dot_radius(d, count);
@@ -298,8 +282,8 @@ static crease_status draw_picture(drawing *d, const crease_frame *room)
         return status;
     for (size_t i = 0; i < scene->layer_count; i++)
         if (scene->layers[i].mesh)
-            crease_raster_draw_mesh(
-                d->canvas.raster, scene->layers[i].mesh, &d->canvas.camera, layer_colour(scene, i));
+            crease_raster_draw_mesh(d->canvas.raster, scene->layers[i].mesh, &d->canvas.camera,
+                crease_palette_of_layer(scene, i));
         else if (scene->layers[i].cloud && !is_drawn(&scene->layers[i]))
             picture_cloud(d, i);
     return crease_raster_paint(d->canvas.context, d->canvas.raster, d->canvas.cairo);
@@ -308,7 +292,7 @@ static crease_status draw_picture(drawing *d, const crease_frame *room)
 static crease_pen pen_of(const drawing *d, size_t index)
 {
     const crease_layer *layer = &d->panel->scene->layers[index];
-    const crease_colour colour = layer_colour(d->panel->scene, index);
+    const crease_colour colour = crease_palette_of_layer(d->panel->scene, index);
     if (layer->kind == CREASE_LAYER_SURFACE)
         return (crease_pen){{0.27, 0.34, 0.48}, 1.0, 0.55, 0};
     if (layer->kind == CREASE_LAYER_CURVES)
@@ -337,7 +321,7 @@ static void add_dot(drawing *d, const double place[3], double radius, crease_col
 static void add_dots(drawing *d, size_t index)
 {
     const crease_layer *layer = &d->panel->scene->layers[index];
-    const crease_colour plain = layer_colour(d->panel->scene, index);
+    const crease_colour plain = crease_palette_of_layer(d->panel->scene, index);
     if (is_drawn(layer)) {
         const crease_field field = field_of(d, layer);
         const size_t count = crease_cloud_count(layer->cloud);

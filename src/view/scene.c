@@ -46,8 +46,8 @@ void crease_scene_free(crease_scene *scene)
 }
 
 /* Begins a layer at the end of the scene; finish_layer() takes it away again on failure. */
-static crease_layer *begin_layer(
-    crease_context *context, crease_scene *scene, crease_layer_kind kind, const char *name)
+static crease_layer *begin_layer(crease_context *context, crease_scene *scene,
+    crease_layer_kind kind, const char *name, size_t items)
 {
     crease_layer *layers =
         crease_reallocate(context, scene->layers, scene->layer_count + 1, sizeof *layers);
@@ -58,7 +58,7 @@ static crease_layer *begin_layer(
     if (!clean)
         return NULL;
     crease_layer *layer = &layers[scene->layer_count++];
-    *layer = (crease_layer){.kind = kind, .name = clean};
+    *layer = (crease_layer){.kind = kind, .name = clean, .items = items};
     return layer;
 }
 
@@ -72,7 +72,7 @@ static crease_status finish_layer(crease_scene *scene, crease_status status)
 crease_status crease_scene_add_cloud(
     crease_context *context, crease_scene *scene, const char *name, const crease_cloud *cloud)
 {
-    crease_layer *layer = begin_layer(context, scene, CREASE_LAYER_POINTS, name);
+    crease_layer *layer = begin_layer(context, scene, CREASE_LAYER_POINTS, name, 1);
     if (!layer)
         return CREASE_ERROR_NO_MEMORY;
     return finish_layer(scene, crease_cloud_with_fields(context, cloud, NULL, 0, &layer->cloud));
@@ -102,7 +102,7 @@ static crease_status add_nets(crease_context *context, crease_scene *scene, cons
 {
     char title[160];
     snprintf(title, sizeof title, "%s control net", name ? name : "");
-    crease_layer *layer = begin_layer(context, scene, CREASE_LAYER_NET, title);
+    crease_layer *layer = begin_layer(context, scene, CREASE_LAYER_NET, title, count);
     crease_status status = layer ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
     if (!layer)
         return status;
@@ -117,7 +117,7 @@ crease_status crease_scene_add_surfaces(crease_context *context, crease_scene *s
     crease_status status = check_count(context, "surfaces", count);
     if (status != CREASE_OK)
         return status;
-    crease_layer *layer = begin_layer(context, scene, CREASE_LAYER_SURFACE, name);
+    crease_layer *layer = begin_layer(context, scene, CREASE_LAYER_SURFACE, name, count);
     if (!layer)
         return CREASE_ERROR_NO_MEMORY;
     status = crease_mesh_create(context, surfaces, count, 0, &layer->mesh);
@@ -136,7 +136,7 @@ crease_status crease_scene_add_curves(crease_context *context, crease_scene *sce
     crease_status status = check_count(context, "curves", count);
     if (status != CREASE_OK)
         return status;
-    crease_layer *layer = begin_layer(context, scene, CREASE_LAYER_CURVES, name);
+    crease_layer *layer = begin_layer(context, scene, CREASE_LAYER_CURVES, name, count);
     if (!layer)
         return CREASE_ERROR_NO_MEMORY;
     for (size_t i = 0; status == CREASE_OK && i < count; i++)

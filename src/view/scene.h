@@ -17,6 +17,7 @@ typedef enum crease_layer_kind {
 typedef struct crease_layer {
     crease_layer_kind kind;
     char *name;             /* clean text */
+    size_t items;           /* surfaces or curves it was made from */
     crease_cloud *cloud;    /* points */
     crease_mesh *mesh;      /* surface */
     crease_polylines lines; /* net, curves, and lines of constant parameter on a surface */

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: The crease authors
+
+// The stage: camera, light, controls and drawing. It draws when something changed and rests
+// otherwise. Coordinates are those of the page: relative to the centre of the scene, -1 to 1.
+
+import {
+  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, LineBasicMaterial, LineSegments,
+  PerspectiveCamera, Raycaster, Scene, Spherical, Vector2, Vector3, WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { ringOf } from './layers.js';
+
+/** Where the eye stands, seen from the centre. */
+export const views = {
+  home: [0.45, -0.78, 0.43],
+  '+x': [1, 0, 0],
+  '\u2212x': [-1, 0, 0],
+  '+y': [0, 1, 0],
+  '\u2212y': [0, -1, 0],
+  '+z': [0, 0, 1],
+  '\u2212z': [0, 0, -1],
+};
+
+const dark = window.matchMedia('(prefers-color-scheme: dark)');
+
+function boxOf(size) {
+  const [x, y, z] = size;
+  const corners = [];
+  for (let i = 0; i < 8; i++) corners.push(i & 1 ? x : -x, i & 2 ? y : -y, i & 4 ? z : -z);
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array(corners), 3));
+  geometry.setIndex([0, 1, 2, 3, 4, 5, 6, 7, 0, 2, 1, 3, 4, 6, 5, 7, 0, 4, 1, 5, 2, 6, 3, 7]);
+  return new LineSegments(geometry, new LineBasicMaterial({ color: '#8a8a99', transparent: true, opacity: 0.5 }));
+}
+
+export class Stage {
+  constructor(canvas, halfSize, layers) {
+    this.canvas = canvas;
+    this.layers = layers;
+    this.sizeFactor = 1;
+    this.drawings = 0;
+    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.scene = new Scene();
+    this.camera = new PerspectiveCamera(30, 1, 0.01, 100);
+    this.camera.up.set(0, 0, 1);
+    this.box = boxOf(halfSize);
+    this.ring = ringOf(16 * window.devicePixelRatio);
+    this.halfSize = halfSize;
+    this.radius = Math.hypot(...halfSize);
+    this.scene.add(this.camera, this.box, this.ring, ...layers.map((layer) => layer.group));
+    this.addLights();
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.minDistance = 0.02;
+    this.controls.maxDistance = 40;
+    this.controls.addEventListener('change', () => this.refresh());
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    dark.addEventListener('change', () => this.applyScheme());
+    this.applyScheme();
+    this.resize();
+    this.look('home');
+  }
+
+  /** Light from above the left shoulder of the eye, so that no side is ever black. */
+  addLights() {
+    const key = new DirectionalLight('#ffffff', 2.1);
+    key.position.set(-1.1, 1.2, 1.4);
+    this.camera.add(key, key.target);
+    this.scene.add(new AmbientLight('#ffffff', 1.25));
+  }
+
+  applyScheme() {
+    this.scene.background = new Color(dark.matches ? '#16171b' : '#ffffff');
+    for (const layer of this.layers)
+      if (layer.thick) layer.thick.material.color.set(dark.matches ? '#f4f4f8' : layer.description.colour);
+    this.refresh();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (!width || !height) return;
+    this.renderer.setPixelRatio(window.devicePixelRatio);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** The room beside or above the panel, where the scene should be: [x, y, width, height]. */
+  freeRoom() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const panel = document.getElementById('panel').getBoundingClientRect();
+    if (panel.width > 0.7 * width) return [0, 0, width, Math.max(0.3 * height, panel.top)];
+    const left = Math.min(panel.right, 0.5 * width);
+    return [left, 0, width - left, height];
+  }
+
+  /** How far away the eye must stand for the box to fit a part of the window, in its heights. */
+  distanceFor(direction, width, height) {
+    const half = Math.tan((this.camera.fov * Math.PI) / 360);
+    const upright = Math.abs(direction.z) > 0.999 ? new Vector3(0, 1, 0) : new Vector3(0, 0, 1);
+    const right = new Vector3().crossVectors(upright, direction).normalize();
+    const up = new Vector3().crossVectors(direction, right);
+    const position = this.box.geometry.attributes.position;
+    let distance = 0;
+    for (let i = 0; i < position.count; i++) {
+      const corner = new Vector3().fromBufferAttribute(position, i);
+      const aside = Math.max(Math.abs(corner.dot(right)) / width, Math.abs(corner.dot(up)) / height);
+      distance = Math.max(distance, corner.dot(direction) + aside / half);
+    }
+    return distance;
+  }
+
+  /** Shows everything from a named view. */
+  look(name) {
+    const direction = new Vector3(...views[name]).normalize();
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const [x, y, roomWidth, roomHeight] = this.freeRoom();
+    const distance = this.distanceFor(direction, (0.94 * roomWidth) / height, (0.94 * roomHeight) / height);
+    this.camera.setViewOffset(width, height,
+      (width - roomWidth) / 2 - x, (height - roomHeight) / 2 - y, width, height);
+    this.camera.near = 0.005 * this.radius;
+    this.camera.far = 60 * Math.max(1, this.radius);
+    this.controls.target.set(0, 0, 0);
+    this.camera.position.copy(direction.multiplyScalar(distance));
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.refresh();
+  }
+
+  /** Turns the eye about the target by angles to the right and up. */
+  turn(right, up) {
+    const offset = this.camera.position.clone().sub(this.controls.target);
+    const zUp = new Spherical().setFromVector3(new Vector3(offset.x, offset.z, -offset.y));
+    zUp.theta += right;
+    zUp.phi = Math.min(Math.PI - 1e-3, Math.max(1e-3, zUp.phi - up));
+    const turned = new Vector3().setFromSpherical(zUp);
+    this.camera.position.copy(this.controls.target).add(new Vector3(turned.x, -turned.z, turned.y));
+    this.controls.update();
+    this.refresh();
+  }
+
+  /** Moves the scene by fractions of the window's height. */
+  move(right, up) {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    const step = 2 * distance * Math.tan((this.camera.fov * Math.PI) / 360);
+    const x = new Vector3().setFromMatrixColumn(this.camera.matrix, 0).multiplyScalar(-right * step);
+    const y = new Vector3().setFromMatrixColumn(this.camera.matrix, 1).multiplyScalar(-up * step);
+    for (const place of [this.camera.position, this.controls.target]) place.add(x).add(y);
+    this.controls.update();
+    this.refresh();
+  }
+
+  zoom(factor) {
+    this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
+    this.controls.update();
+    this.refresh();
+  }
+
+  /** Marks one place, or none. */
+  mark(place) {
+    this.ring.visible = Boolean(place);
+    if (place) this.ring.geometry.attributes.position.copyArray(place).needsUpdate = true;
+    this.refresh();
+  }
+
+  /** Where a place falls on the canvas, in CSS pixels, with its depth of -1 to 1. */
+  project(place) {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const spot = new Vector3(...place).project(this.camera);
+    return { x: ((spot.x + 1) / 2) * width, y: ((1 - spot.y) / 2) * height, depth: spot.z };
+  }
+
+  /** The depth of the nearest surface at a place of the canvas; 1 where there is none. */
+  surfaceDepth(x, y) {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const raycaster = new Raycaster();
+    raycaster.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
+    const meshes = this.layers.filter((layer) => layer.mesh && layer.visible).map((layer) => layer.mesh);
+    const [hit] = raycaster.intersectObjects(meshes, false);
+    if (!hit) return 1;
+    const slack = 0.01 * this.radius;
+    const behind = hit.point.addScaledVector(raycaster.ray.direction, slack);
+    return behind.project(this.camera).z;
+  }
+
+  refresh() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => this.draw());
+  }
+
+  draw() {
+    this.waiting = false;
+    const ratio = this.renderer.getPixelRatio();
+    const perPixel = (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / (this.canvas.clientHeight * ratio);
+    for (const layer of this.layers.filter(({ points }) => points)) {
+      layer.points.material.uniforms.size.value = layer.dots * this.sizeFactor * ratio;
+      layer.points.material.uniforms.perPixel.value = perPixel;
+    }
+    this.renderer.render(this.scene, this.camera);
+    this.drawings++;
+    if (this.afterDrawing) this.afterDrawing();
+  }
+}
