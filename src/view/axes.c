@@ -172,22 +172,22 @@ static void visit_all(const crease_axes *axes, cairo_t *cairo, const crease_came
 
 typedef struct covering {
     cairo_t *cairo;
-    crease_frame frame;
+    crease_area area;
 } covering;
 
-static void cover(crease_frame *frame, double x, double y, double half_width, double half_height)
+static void cover(crease_area *area, double x, double y, double half_width, double half_height)
 {
-    frame->left = fmin(frame->left, x - half_width);
-    frame->right = fmax(frame->right, x + half_width);
-    frame->top = fmin(frame->top, y - half_height);
-    frame->bottom = fmax(frame->bottom, y + half_height);
+    area->left = fmin(area->left, x - half_width);
+    area->right = fmax(area->right, x + half_width);
+    area->top = fmin(area->top, y - half_height);
+    area->bottom = fmax(area->bottom, y + half_height);
 }
 
 static void cover_text(void *user, const crease_lettering *text)
 {
     covering *c = user;
     const crease_extent extent = crease_lettering_extent(c->cairo, text);
-    cover(&c->frame, text->x, text->y, extent.width / 2, extent.height / 2);
+    cover(&c->area, text->x, text->y, extent.width / 2, extent.height / 2);
 }
 
 static void corner(const crease_axes *axes, int number, double out[3])
@@ -196,7 +196,7 @@ static void corner(const crease_axes *axes, int number, double out[3])
         out[c] = number >> c & 1 ? axes->highest[c] : axes->lowest[c];
 }
 
-crease_frame crease_axes_cover(
+crease_area crease_axes_cover(
     const crease_axes *axes, cairo_t *cairo, const crease_camera *camera, bool numbered)
 {
     covering c = {cairo, {camera->x, camera->y, camera->x, camera->y}};
@@ -204,11 +204,11 @@ crease_frame crease_axes_cover(
         double place[3];
         corner(axes, number, place);
         const crease_spot spot = crease_camera_project(camera, place);
-        cover(&c.frame, spot.x, spot.y, 0, 0);
+        cover(&c.area, spot.x, spot.y, 0, 0);
     }
     if (numbered)
         visit_all(axes, cairo, camera, cover_text, &c);
-    return c.frame;
+    return c.area;
 }
 
 static void draw_text(void *user, const crease_lettering *text)

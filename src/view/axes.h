@@ -11,9 +11,10 @@
 #include <cairo.h>
 #include <stdbool.h>
 
-typedef struct crease_frame {
+/* A rectangle of the drawing. */
+typedef struct crease_area {
     double left, top, right, bottom;
-} crease_frame;
+} crease_area;
 
 typedef struct crease_axis {
     double from[3], to[3];       /* the numbered edge of the box */
@@ -33,7 +34,7 @@ void crease_axes_enclose(crease_axes *axes, const double lowest[3], const double
 /* Chooses edges and ticks for the camera. */
 void crease_axes_arrange(crease_axes *axes, cairo_t *cairo, const crease_camera *camera);
 /* What the box with all its numbers covers on the drawing. */
-crease_frame crease_axes_cover(
+crease_area crease_axes_cover(
     const crease_axes *axes, cairo_t *cairo, const crease_camera *camera, bool numbered);
 void crease_axes_draw(const crease_axes *axes, cairo_t *cairo, const crease_camera *camera);
 

@@ -3,13 +3,10 @@
 
 #include "view/camera.h"
 
+#include "base/vector.h"
+
 #include <math.h>
 #include <string.h>
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 crease_camera crease_camera_at(double azimuth, double elevation, const double centre[3])
 {
@@ -28,6 +25,7 @@ crease_spot crease_camera_project(const crease_camera *camera, const double poin
 {
     const double *c = camera->centre;
     const double from[3] = {point[0] - c[0], point[1] - c[1], point[2] - c[2]};
-    return (crease_spot){camera->x + camera->scale * dot(camera->right, from),
-        camera->y - camera->scale * dot(camera->up, from), -camera->scale * dot(camera->eye, from)};
+    return (crease_spot){camera->x + camera->scale * crease_vector_dot(camera->right, from),
+        camera->y - camera->scale * crease_vector_dot(camera->up, from),
+        -camera->scale * crease_vector_dot(camera->eye, from)};
 }

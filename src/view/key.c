@@ -89,13 +89,13 @@ static void draw_row(const crease_canvas *canvas, const crease_legend *legend, s
 }
 
 void crease_legend_draw(
-    const crease_canvas *canvas, const crease_legend *legend, const crease_frame *frame)
+    const crease_canvas *canvas, const crease_legend *legend, const crease_area *area)
 {
-    double y = frame->top + ROW / 2 * legend->font;
+    double y = area->top + ROW / 2 * legend->font;
     for (size_t first = 0; first < legend->count; y += ROW * legend->font) {
         double width = 0;
-        const size_t count = row_of(canvas, legend, first, frame->right - frame->left, &width);
-        draw_row(canvas, legend, first, count, (frame->left + frame->right - width) / 2, y);
+        const size_t count = row_of(canvas, legend, first, area->right - area->left, &width);
+        draw_row(canvas, legend, first, count, (area->left + area->right - width) / 2, y);
         first += count;
     }
 }
@@ -120,14 +120,14 @@ double crease_bar_measure(const crease_canvas *canvas, crease_bar *bar, double h
     return bar->thickness + (TICK_GAP + TITLE_GAP + 0.8) * bar->font + label_width(canvas, bar);
 }
 
-static double bar_y(const crease_bar *bar, const crease_frame *inner, double value)
+static double bar_y(const crease_bar *bar, const crease_area *inner, double value)
 {
     const double t = (value - bar->range.lowest) / (bar->range.highest - bar->range.lowest);
     return inner->bottom + (inner->top - inner->bottom) * t;
 }
 
 static void draw_gradient(
-    const crease_canvas *canvas, const crease_bar *bar, const crease_frame *inner)
+    const crease_canvas *canvas, const crease_bar *bar, const crease_area *inner)
 {
     enum { STOPS = 64 };
     cairo_pattern_t *pattern = cairo_pattern_create_linear(0, inner->bottom, 0, inner->top);
@@ -155,7 +155,7 @@ static void draw_gradient(
 }
 
 static void draw_bar_ticks(
-    const crease_canvas *canvas, const crease_bar *bar, const crease_frame *inner)
+    const crease_canvas *canvas, const crease_bar *bar, const crease_area *inner)
 {
     cairo_t *cairo = canvas->cairo;
     for (int i = 0; i < bar->ticks.count; i++) {
@@ -173,11 +173,11 @@ static void draw_bar_ticks(
     }
 }
 
-void crease_bar_draw(const crease_canvas *canvas, const crease_bar *bar, const crease_frame *frame)
+void crease_bar_draw(const crease_canvas *canvas, const crease_bar *bar, const crease_area *area)
 {
     const double end = bar->thickness;
-    const crease_frame inner = {
-        frame->left, frame->top + end, frame->left + bar->thickness, frame->bottom - end};
+    const crease_area inner = {
+        area->left, area->top + end, area->left + bar->thickness, area->bottom - end};
     draw_gradient(canvas, bar, &inner);
     draw_bar_ticks(canvas, bar, &inner);
     crease_lettering_draw(canvas->cairo,

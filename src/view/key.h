@@ -25,7 +25,7 @@ typedef struct crease_legend {
 double crease_legend_measure(const crease_canvas *canvas, crease_legend *legend, double width);
 /* Draws the rows, each in the middle of left..right, downwards from top. */
 void crease_legend_draw(
-    const crease_canvas *canvas, const crease_legend *legend, const crease_frame *frame);
+    const crease_canvas *canvas, const crease_legend *legend, const crease_area *area);
 
 typedef struct crease_bar {
     crease_range range;
@@ -36,7 +36,7 @@ typedef struct crease_bar {
 
 /* The width of a colour bar of this height with its numbers and title. */
 double crease_bar_measure(const crease_canvas *canvas, crease_bar *bar, double height);
-/* Draws it from the frame's left and within its top and bottom. */
-void crease_bar_draw(const crease_canvas *canvas, const crease_bar *bar, const crease_frame *frame);
+/* Draws it from the area's left and within its top and bottom. */
+void crease_bar_draw(const crease_canvas *canvas, const crease_bar *bar, const crease_area *area);
 
 #endif

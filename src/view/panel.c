@@ -132,7 +132,7 @@ static crease_status prepare_bar(drawing *d)
     return CREASE_OK;
 }
 
-static void draw_title(drawing *d, crease_frame *room)
+static void draw_title(drawing *d, crease_area *room)
 {
     char title[SHORT_TEXT], letter[8] = "";
     shorten(d->panel->scene->title, title, sizeof title);
@@ -155,44 +155,44 @@ static void draw_title(drawing *d, crease_frame *room)
     room->top += 1.9 * size;
 }
 
-static void place_legend(drawing *d, crease_frame *room)
+static void place_legend(drawing *d, crease_area *room)
 {
     if (d->legend.count == 0)
         return;
     const double height = crease_legend_measure(&d->canvas, &d->legend, room->right - room->left);
-    crease_frame frame = *room;
-    frame.top = room->bottom - height;
-    crease_legend_draw(&d->canvas, &d->legend, &frame);
-    room->bottom = frame.top - 0.8 * d->axes.font;
+    crease_area area = *room;
+    area.top = room->bottom - height;
+    crease_legend_draw(&d->canvas, &d->legend, &area);
+    room->bottom = area.top - 0.8 * d->axes.font;
 }
 
-static void place_bar(drawing *d, crease_frame *room)
+static void place_bar(drawing *d, crease_area *room)
 {
     if (!d->coloured)
         return;
     const double height = room->bottom - room->top, cut = 0.14 * height;
     const double width = crease_bar_measure(&d->canvas, &d->bar, height - 2 * cut);
-    const crease_frame frame = {
+    const crease_area area = {
         room->right - width, room->top + cut, room->right, room->bottom - cut};
-    crease_bar_draw(&d->canvas, &d->bar, &frame);
+    crease_bar_draw(&d->canvas, &d->bar, &area);
     room->right -= width + 1.3 * d->axes.font;
 }
 
 /* Scales and moves the camera until the box with its numbers fills the room. What the numbers need
  * depends on the scale, and the other way round, so this is repeated. */
-static void fit_camera(drawing *d, const crease_frame *room)
+static void fit_camera(drawing *d, const crease_area *room)
 {
     crease_camera *camera = &d->canvas.camera;
     const double width = room->right - room->left, height = room->bottom - room->top;
     const bool numbered = d->panel->options.axes;
     camera->scale = 1;
-    const crease_frame bare = crease_axes_cover(&d->axes, d->canvas.cairo, camera, false);
+    const crease_area bare = crease_axes_cover(&d->axes, d->canvas.cairo, camera, false);
     const double bare_width = fmax(1e-300, bare.right - bare.left);
     const double bare_height = fmax(1e-300, bare.bottom - bare.top);
     camera->scale = 0.8 * fmin(width / bare_width, height / bare_height);
     for (int pass = 0; pass < 6; pass++) {
         crease_axes_arrange(&d->axes, d->canvas.cairo, camera);
-        const crease_frame cover = crease_axes_cover(&d->axes, d->canvas.cairo, camera, numbered);
+        const crease_area cover = crease_axes_cover(&d->axes, d->canvas.cairo, camera, numbered);
         const double across = cover.right - cover.left - bare_width * camera->scale;
         const double down = cover.bottom - cover.top - bare_height * camera->scale;
         camera->x += (room->left + room->right - cover.left - cover.right) / 2;
@@ -204,7 +204,7 @@ static void fit_camera(drawing *d, const crease_frame *room)
     crease_axes_arrange(&d->axes, d->canvas.cairo, camera);
 }
 
-static void place_camera(drawing *d, const crease_frame *room)
+static void place_camera(drawing *d, const crease_area *room)
 {
     double centre[3], diagonal = 0;
     for (int c = 0; c < 3; c++) {
@@ -265,7 +265,7 @@ static void picture_cloud(const drawing *d, size_t index)
 }
 
 /* Surfaces and large clouds, with what is behind hidden sample by sample. */
-static crease_status draw_picture(drawing *d, const crease_frame *room)
+static crease_status draw_picture(drawing *d, const crease_area *room)
 {
     const crease_scene *scene = d->panel->scene;
     bool needed = false;
@@ -354,7 +354,7 @@ static crease_status draw_dots(drawing *d)
 }
 
 /* Everything inside the room that title, legend and bar leave. */
-static crease_status draw_scene(drawing *d, const crease_frame *room)
+static crease_status draw_scene(drawing *d, const crease_area *room)
 {
     place_camera(d, room);
     if (d->panel->options.axes)
@@ -371,7 +371,7 @@ static crease_status draw_all(drawing *d)
 {
     const crease_panel *panel = d->panel;
     const double margin = MARGIN * d->canvas.unit;
-    crease_frame room = {panel->left + margin, panel->top + margin,
+    crease_area room = {panel->left + margin, panel->top + margin,
         panel->left + panel->options.width - margin, panel->top + panel->options.height - margin};
     crease_status status = find_range(d);
     if (status == CREASE_OK)

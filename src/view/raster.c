@@ -4,6 +4,7 @@
 #include "view/raster.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,14 +87,11 @@ static double to_samples(const crease_raster *raster)
 /* How bright a place with this normal is: soft light from one side, so that no part is black. */
 static double brightness(const brush *b, const double normal[3])
 {
-    const double *e = b->camera->eye, *l = b->light;
-    const double length =
-        sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    const double length = crease_vector_length(normal);
     if (!(length > 0))
         return 0.8;
-    const double facing = (normal[0] * e[0] + normal[1] * e[1] + normal[2] * e[2]) / length;
-    const double side = facing < 0 ? -1 : 1;
-    const double lit = side * (normal[0] * l[0] + normal[1] * l[1] + normal[2] * l[2]) / length;
+    const double side = crease_vector_dot(normal, b->camera->eye) < 0 ? -1 : 1;
+    const double lit = side * crease_vector_dot(normal, b->light) / length;
     return 0.52 + 0.30 * (lit + 1) / 2 + 0.26 * fmax(0, lit);
 }
 
