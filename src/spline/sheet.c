@@ -184,10 +184,3 @@ crease_status crease_sheet_faces(
     *count = made;
     return CREASE_OK;
 }
-
-void crease_surfaces_free(crease_surface **surfaces, size_t count)
-{
-    for (size_t i = 0; surfaces && i < count; i++)
-        crease_surface_free(surfaces[i]);
-    free(surfaces);
-}
