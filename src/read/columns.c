@@ -83,6 +83,13 @@ crease_status crease_columns_add(
     return CREASE_OK;
 }
 
+crease_status crease_columns_add_named(
+    crease_context *context, crease_columns *columns, const char *name, int cell)
+{
+    return crease_columns_add(
+        context, columns, (crease_span){name, name + strlen(name)}, cell, CREASE_ROLE_FIELD);
+}
+
 static crease_status check_names(
     crease_context *context, const crease_source *source, const crease_columns *columns)
 {

@@ -52,6 +52,9 @@ typedef struct crease_columns {
  * it is SKIPPED or LIST. */
 crease_status crease_columns_add(
     crease_context *context, crease_columns *columns, crease_span name, int cell, crease_role role);
+/* Adds a column under a name of our own. */
+crease_status crease_columns_add_named(
+    crease_context *context, crease_columns *columns, const char *name, int cell);
 /* Ends the adding: x, y and z are there, no name is there twice, incomplete normals are fields. */
 crease_status crease_columns_settle(
     crease_context *context, const crease_source *source, crease_columns *columns);

@@ -8,15 +8,15 @@
 #include <string.h>
 #include <strings.h>
 
-enum { HEAD_SIZE = 4096, STL_HEADER = 84, STL_TRIANGLE = 50, IGES_LINE = 73 };
+enum { HEAD_SIZE = 4096, IGES_LINE = 73 };
 
 static const crease_format formats[] = {
     {"PLY", "a PLY file", crease_ply_read},
-    {"PCD", "a PCD file", NULL},
+    {"PCD", "a PCD file", crease_pcd_read},
     {"XYZ", "rows of numbers", crease_xyz_read},
-    {"OBJ", "a Wavefront OBJ file", NULL},
-    {"STL", "an STL file", NULL},
-    {"OFF", "an OFF file", NULL},
+    {"OBJ", "a Wavefront OBJ file", crease_obj_read},
+    {"STL", "an STL file", crease_stl_read},
+    {"OFF", "an OFF file", crease_off_read},
     {"STEP", "a CAD model (STEP)", NULL},
     {"IGES", "a CAD model (IGES)", NULL},
     {"BREP", "a CAD model (BREP)", NULL},
@@ -87,7 +87,7 @@ static bool is_iges(crease_span head)
 static crease_span first_word(crease_span head, bool *alone)
 {
     crease_cursor cursor = {.at = head.at, .end = head.end};
-    crease_span line, word = {head.at, head.at};
+    crease_span line = {head.at, head.at}, word = line;
     while (crease_cursor_line(&cursor, &line))
         if (crease_span_word(&line, &word) && *word.at != '#')
             break;
@@ -121,17 +121,6 @@ static const char *by_first_word(crease_span head)
     return is_off(word) ? "OFF" : NULL;
 }
 
-/* A binary STL has no signature, but its size follows from its count of triangles. */
-static bool is_binary_stl(crease_span head, size_t file_size)
-{
-    if (head.end - head.at < STL_HEADER)
-        return false;
-    const unsigned char *at = (const unsigned char *)head.at + STL_HEADER - 4;
-    const uint64_t count =
-        at[0] | (uint64_t)at[1] << 8 | (uint64_t)at[2] << 16 | (uint64_t)at[3] << 24;
-    return file_size == STL_HEADER + STL_TRIANGLE * count;
-}
-
 static bool contains(crease_span head, const char *word)
 {
     for (; head.at < head.end; head.at++)
@@ -152,7 +141,8 @@ static const char *by_signature(crease_span head, size_t file_size)
         return name;
     if (is_iges(head))
         return "IGES";
-    if (is_binary_stl(head, file_size) || is_ascii_stl(head))
+    if (crease_stl_is_binary(head.at, (size_t)(head.end - head.at), file_size) ||
+        is_ascii_stl(head))
         return "STL";
     return by_first_word(head);
 }

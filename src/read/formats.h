@@ -18,6 +18,9 @@ crease_reader crease_obj_read;
 crease_reader crease_stl_read;
 crease_reader crease_off_read;
 
+/* A binary STL has no signature, but its size follows from its count of triangles. */
+bool crease_stl_is_binary(const char *head, size_t head_size, size_t file_size);
+
 typedef struct crease_format {
     const char *name;        /* "PLY" */
     const char *description; /* "a CAD model (STEP)" */

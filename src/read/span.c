@@ -30,6 +30,15 @@ bool crease_span_word(crease_span *line, crease_span *word)
     return word->at < word->end;
 }
 
+size_t crease_span_words(crease_span line)
+{
+    size_t count = 0;
+    crease_span word;
+    while (crease_span_word(&line, &word) && *word.at != '#')
+        count++;
+    return count;
+}
+
 bool crease_span_is(crease_span word, const char *text)
 {
     const size_t length = strlen(text);

@@ -38,6 +38,8 @@ static inline const char *crease_skip_blanks(const char *at, const char *end)
 bool crease_cursor_line(crease_cursor *cursor, crease_span *line);
 /* Takes the next word of the line off its front; false when there is none. */
 bool crease_span_word(crease_span *line, crease_span *word);
+/* Number of words in front of any comment. */
+size_t crease_span_words(crease_span line);
 /* True when the word is this text. */
 bool crease_span_is(crease_span word, const char *text);
 /* The same in any case; the text in lower case. */

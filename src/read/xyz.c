@@ -10,6 +10,7 @@
  *  - Columns of text are passed over. Without a header the first three columns of numbers are
  *    x y z; three more of unit length are a normal. */
 #include "base/memory.h"
+#include "read/colour.h"
 #include "read/formats.h"
 #include "read/number.h"
 #include "read/table.h"
@@ -249,46 +250,6 @@ static crease_status find_columns(xyz *file)
 
 /* ----------------------------------------------------------------------------- what they are -- */
 
-static bool is_colour(const crease_column *column)
-{
-    static const char *const names[] = {"r", "g", "b", "red", "green", "blue", "alpha"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        if (crease_span_is_like(text_span(column->name), names[i]))
-            return true;
-    return false;
-}
-
-static bool are_bytes(const double *values, size_t count)
-{
-    for (size_t i = 0; i < count; i++)
-        if (!(values[i] >= 0 && values[i] <= UINT8_MAX) || values[i] != floor(values[i]) ||
-            signbit(values[i]))
-            return false;
-    return true;
-}
-
-/* Colours 0..255 become bytes, as every other format has them. */
-static crease_status narrow_colours(crease_context *context, crease_columns *columns)
-{
-    for (size_t i = 0; i < columns->count; i++) {
-        crease_column *column = &columns->items[i];
-        const double *values = (const void *)column->values;
-        if (column->role != CREASE_ROLE_FIELD || !is_colour(column) ||
-            !are_bytes(values, columns->rows))
-            continue;
-        uint8_t *bytes = crease_allocate(context, columns->rows, 1);
-        if (!bytes)
-            return CREASE_ERROR_NO_MEMORY;
-        for (size_t row = 0; row < columns->rows; row++)
-            bytes[row] = (uint8_t)values[row];
-        free(column->values);
-        column->values = bytes;
-        column->type = CREASE_TYPE_UINT8;
-        column->step = 1;
-    }
-    return CREASE_OK;
-}
-
 /* Six columns of numbers, the last three of unit length in every row. */
 static bool has_plain_normals(const crease_columns *columns)
 {
@@ -355,7 +316,7 @@ static crease_status read_rows(xyz *file, crease_table *table, crease_cloud **ou
     if (status == CREASE_OK && !file->named && has_plain_normals(columns))
         status = make_normals(context, columns);
     if (status == CREASE_OK)
-        status = narrow_colours(context, columns);
+        status = crease_colours_narrow(context, columns);
     if (status != CREASE_OK)
         return status;
     return crease_columns_finish(

@@ -7,7 +7,7 @@
 
 enum { MOST_POINTS = 64 };
 
-static const char *const formats[] = {"ply", "ply", "xyz", "txt", "csv", "asc", "pts"};
+static const char *const formats[] = {"ply", "pcd", "xyz", "txt", "csv", "asc", "pts"};
 enum { FORMAT_COUNT = sizeof formats / sizeof formats[0] };
 
 static const char *file_name(const char *extension)
@@ -189,7 +189,7 @@ static void given_each_format_then_the_file_looks_as_it_should(void **state)
 {
     static const char *const texts[] = {
         "ply\nformat binary_little_endian 1.0\ncomment crease ",
-        "ply\n",
+        "# .PCD v0.7",
         "# x y z nx ny nz feature\n0.5 0.1 -3 0 0 1 0\n4 5 1e-07 0.6 0 0.8 255\n",
         "x y z nx ny nz feature\n0.5 0.1 -3 0 0 1 0\n",
         "x,y,z,nx,ny,nz,feature\n0.5,0.1,-3,0,0,1,0\n",
