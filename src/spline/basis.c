@@ -37,17 +37,19 @@ size_t crease_basis_span(const double *knots, int order, size_t count, double t,
     return last_knot_below(knots, first, count, t, right);
 }
 
-/* One step of the triangular scheme: functions of order j become those of order j + 1. Both factors
- * are divided by a length that holds the span, so never by zero. */
+/* One step of the triangular scheme: functions of order j become those of order j + 1. What is
+ * divided by holds the span, so it is never zero; at the ends of the span the share is exactly 0 or
+ * 1, so that a clamped end is exactly its control point. */
 static void raise_order(const double *knots, size_t span, double t, size_t j, double *values)
 {
     double saved = 0.0;
     for (size_t r = 0; r < j; r++) {
         const double right = knots[span + r + 1];
         const double left = knots[span + 1 + r - j];
-        const double share = values[r] / (right - left);
-        values[r] = saved + (right - t) * share;
-        saved = (t - left) * share;
+        const double share = (t - left) / (right - left);
+        const double value = values[r];
+        values[r] = saved + (1.0 - share) * value;
+        saved = share * value;
     }
     values[j] = saved;
 }

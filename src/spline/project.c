@@ -18,6 +18,7 @@
 #include "base/parallel.h"
 #include "spline/basis.h"
 #include "spline/bernstein.h"
+#include "spline/bezier.h"
 #include "spline/curve.h"
 #include "spline/newton.h"
 #include "spline/surface.h"
@@ -30,14 +31,6 @@ enum { GRAIN = 64, MOST_BOXES = 2000, STACK_BOXES = 80, STACK_NODES = 128 };
 
 static const double SMALL_BOX = 1e-6;
 
-/* One span of positive length along a direction and how its Bezier points come from the control
- * points. */
-typedef struct span {
-    size_t index;
-    double ends[2];
-    double extract[CREASE_ORDER_MAX * CREASE_ORDER_MAX];
-} span;
-
 /* A box that holds the patches first..last - 1 along u and v. */
 typedef struct node {
     double lowest[3], highest[3];
@@ -46,9 +39,7 @@ typedef struct node {
 } node;
 
 typedef struct projector {
-    crease_surface_parts parts;
-    span *spans[2];
-    size_t span_count[2];
+    crease_bezier bezier;
     node *nodes;
     size_t node_count;
 } projector;
@@ -66,69 +57,14 @@ typedef struct found {
     size_t patch[2]; /* number of the span in each direction */
 } found;
 
-/* ------------------------------------------------------------------------------- patches -- */
-
-/* Bezier points of the span are the polar form at its ends. */
-static void extract_span(const double *knots, int order, size_t index, span *out)
-{
-    double arguments[CREASE_ORDER_MAX];
-    out->index = index;
-    out->ends[0] = knots[index];
-    out->ends[1] = knots[index + 1];
-    for (int i = 0; i < order; i++) {
-        for (int r = 0; r < order - 1; r++)
-            arguments[r] = r < order - 1 - i ? out->ends[0] : out->ends[1];
-        crease_basis_blossom(knots, order, index, arguments, out->extract + i * order);
-    }
-}
-
-static crease_status find_spans(crease_context *context, projector *p, int direction)
-{
-    const int order = p->parts.order[direction];
-    const size_t count = p->parts.count[direction];
-    const double *const knots = p->parts.knots[direction];
-    p->spans[direction] =
-        crease_allocate(context, count + 1 - (size_t)order, sizeof *p->spans[direction]);
-    if (!p->spans[direction])
-        return CREASE_ERROR_NO_MEMORY;
-    for (size_t i = (size_t)order - 1; i < count; i++)
-        if (knots[i] < knots[i + 1])
-            extract_span(knots, order, i, &p->spans[direction][p->span_count[direction]++]);
-    return CREASE_OK;
-}
-
-/* Bezier points of a patch relative to a place. */
-static void extract_patch(
-    const projector *p, const size_t patch[2], const double place[3], double *out)
-{
-    const span *const u = &p->spans[0][patch[0]];
-    const span *const v = &p->spans[1][patch[1]];
-    const size_t m = (size_t)p->parts.order[0];
-    const size_t n = (size_t)p->parts.order[1];
-    const double *const corner =
-        p->parts.control_points + 3 * ((u->index + 1 - m) * p->parts.count[1] + v->index + 1 - n);
-    double half[3 * CREASE_ORDER_MAX * CREASE_ORDER_MAX] = {0};
-    for (size_t i = 0; i < m; i++)
-        for (size_t j = 0; j < n; j++)
-            for (size_t r = 0; r < n; r++)
-                for (size_t c = 0; c < 3; c++)
-                    half[3 * (i * n + j) + c] += v->extract[j * n + r] *
-                        (corner[3 * (i * p->parts.count[1] + r) + c] - place[c]);
-    memset(out, 0, 3 * m * n * sizeof *out);
-    for (size_t i = 0; i < m; i++)
-        for (size_t r = 0; r < m; r++)
-            for (size_t k = 0; k < 3 * n; k++)
-                out[3 * n * i + k] += u->extract[i * m + r] * half[3 * n * r + k];
-}
-
 /* ---------------------------------------------------------------------------------- tree -- */
 
 static void enclose_patch(const projector *p, node *leaf)
 {
     static const double origin[3] = {0};
     double points[3 * CREASE_ORDER_MAX * CREASE_ORDER_MAX];
-    extract_patch(p, leaf->first, origin, points);
-    for (int i = 0; i < 3 * p->parts.order[0] * p->parts.order[1]; i++) {
+    crease_bezier_patch(&p->bezier, leaf->first, origin, points);
+    for (int i = 0; i < 3 * p->bezier.parts.order[0] * p->bezier.parts.order[1]; i++) {
         leaf->lowest[i % 3] = i < 3 ? points[i] : fmin(leaf->lowest[i % 3], points[i]);
         leaf->highest[i % 3] = i < 3 ? points[i] : fmax(leaf->highest[i % 3], points[i]);
     }
@@ -164,28 +100,25 @@ static size_t grow(projector *p, const size_t first[2], const size_t last[2])
 
 static void release(projector *p)
 {
-    free(p->spans[0]);
-    free(p->spans[1]);
+    crease_bezier_release(&p->bezier);
     free(p->nodes);
 }
 
 static crease_status prepare(
     crease_context *context, const crease_surface_parts *parts, projector *p)
 {
-    *p = (projector){.parts = *parts};
-    crease_status status = find_spans(context, p, 0);
-    if (status == CREASE_OK)
-        status = find_spans(context, p, 1);
-    if (status == CREASE_OK) {
-        p->nodes =
-            crease_allocate(context, 2 * p->span_count[0] * p->span_count[1], sizeof *p->nodes);
-        status = p->nodes ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
-    }
-    if (status == CREASE_OK)
-        grow(p, (const size_t[2]){0, 0}, p->span_count);
-    else
+    *p = (projector){.nodes = NULL};
+    const crease_status status = crease_bezier_prepare(context, parts, &p->bezier);
+    if (status != CREASE_OK)
+        return status;
+    const size_t patches = p->bezier.span_count[0] * p->bezier.span_count[1];
+    p->nodes = crease_allocate(context, 2 * patches, sizeof *p->nodes);
+    if (!p->nodes) {
         release(p);
-    return status;
+        return CREASE_ERROR_NO_MEMORY;
+    }
+    grow(p, (const size_t[2]){0, 0}, p->bezier.span_count);
+    return CREASE_OK;
 }
 
 /* -------------------------------------------------------------------------------- search -- */
@@ -226,9 +159,9 @@ static bool settled(const crease_box *box, int used)
 static void search_patch(const projector *p, const size_t number[2], const double place[3],
     scratch *s, int *used, found *best)
 {
-    extract_patch(p, number, place, s->patch);
+    crease_bezier_patch(&p->bezier, number, place, s->patch);
     const crease_patch patch = {
-        .degree = {p->parts.order[0] - 1, p->parts.order[1] - 1}, .points = s->patch};
+        .degree = {p->bezier.parts.order[0] - 1, p->bezier.parts.order[1] - 1}, .points = s->patch};
     crease_box_of_patch(&patch, &s->boxes[0]);
     if (hopeless(s->boxes[0].least, s->boxes[0].rounding, best->squared))
         return;
@@ -316,9 +249,9 @@ static void polish(const projector *p, const double place[3], scratch *s, found 
 {
     static const double lowest[2] = {0.0, 0.0};
     static const double highest[2] = {1.0, 1.0};
-    extract_patch(p, best->patch, place, s->patch);
+    crease_bezier_patch(&p->bezier, best->patch, place, s->patch);
     const crease_patch patch = {
-        .degree = {p->parts.order[0] - 1, p->parts.order[1] - 1}, .points = s->patch};
+        .degree = {p->bezier.parts.order[0] - 1, p->bezier.parts.order[1] - 1}, .points = s->patch};
     double at[2] = {best->at[0], best->at[1]};
     const double squared = crease_newton_descend(&patch, lowest, highest, at);
     if (squared <= best->squared) {
@@ -333,7 +266,7 @@ static void locate(const projector *p, const double place[3], scratch *s, found 
     *best = search(p, place, s);
     polish(p, place, s, best);
     for (int d = 0; d < 2; d++) {
-        const double *const ends = p->spans[d][best->patch[d]].ends;
+        const double *const ends = p->bezier.spans[d][best->patch[d]].ends;
         uv[d] = best->at[d] >= 1.0 ? ends[1] : ends[0] + best->at[d] * (ends[1] - ends[0]);
     }
 }
@@ -407,8 +340,8 @@ static void project_some(void *user, size_t begin, size_t end, int worker)
 static crease_status make_scratches(crease_context *context, work *w, double **coefficients)
 {
     const size_t threads = (size_t)crease_context_threads(context);
-    const size_t size = (size_t)(2 * w->projector.parts.order[0] - 1) *
-        (size_t)(2 * w->projector.parts.order[1] - 1);
+    const size_t size = (size_t)(2 * w->projector.bezier.parts.order[0] - 1) *
+        (size_t)(2 * w->projector.bezier.parts.order[1] - 1);
     w->scratches = crease_allocate(context, threads, sizeof *w->scratches);
     *coefficients = crease_allocate(context, threads * STACK_BOXES * size, sizeof(double));
     if (!w->scratches || !*coefficients)
