@@ -8,6 +8,7 @@
 #include "model/grid.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 #include "spline/bezier.h"
 #include "spline/surface.h"
 
@@ -15,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double MOST_LINES = 1e8;
+static const double MOST_LINES = 1e6;
 
 static double difference(const double *a, const double *b, const double *c, const double *d)
 {
@@ -91,9 +92,7 @@ static bool normals_jump(const crease_grid *grid, int direction, double t)
             sides[direction] = side ? CREASE_SIDE_LEFT : CREASE_SIDE_RIGHT;
             crease_surface_normal(grid->surface, uv, sides, normals[side]);
         }
-        const double *const a = normals[0];
-        const double *const b = normals[1];
-        if (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] < COSINE)
+        if (crease_vector_dot(normals[0], normals[1]) < COSINE)
             return true;
     }
     return false;

@@ -8,6 +8,7 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/vector.h"
 #include "model/border.h"
 #include "model/grid.h"
 #include "spline/surface.h"
@@ -27,7 +28,7 @@ typedef struct work {
 } work;
 
 /* Length of the diagonal of the box around all control points. */
-static double diagonal(const crease_surface *const *surfaces, size_t count)
+static double extent(const crease_surface *const *surfaces, size_t count)
 {
     double lowest[3] = {INFINITY, INFINITY, INFINITY};
     double highest[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -36,7 +37,7 @@ static double diagonal(const crease_surface *const *surfaces, size_t count)
             lowest[i % 3] = fmin(lowest[i % 3], surfaces[s]->control_points[i]);
             highest[i % 3] = fmax(highest[i % 3], surfaces[s]->control_points[i]);
         }
-    return hypot(hypot(highest[0] - lowest[0], highest[1] - lowest[1]), highest[2] - lowest[2]);
+    return crease_vector_distance(lowest, highest);
 }
 
 /* ----------------------------------------------------------------------------------- grids -- */
@@ -186,48 +187,28 @@ static crease_status close_gaps(crease_context *context, const work *w)
 
 /* ------------------------------------------------------------------------------- triangles -- */
 
-/* Squared double area, and the squared length of the longest side. */
-static void measure(const double *vertices, const uint32_t corners[3], double *area, double *side)
-{
-    double edges[3][3];
-    *side = 0.0;
-    for (int k = 0; k < 3; k++) {
-        double squared = 0.0;
-        for (int c = 0; c < 3; c++) {
-            edges[k][c] = vertices[3 * (size_t)corners[(k + 1) % 3] + (size_t)c] -
-                vertices[3 * (size_t)corners[k] + (size_t)c];
-            squared += edges[k][c] * edges[k][c];
-        }
-        *side = fmax(*side, squared);
-    }
-    *area = 0.0;
-    for (int c = 0; c < 3; c++) {
-        const int d = (c + 1) % 3;
-        const int e = (c + 2) % 3;
-        const double part = edges[0][d] * edges[1][e] - edges[0][e] * edges[1][d];
-        *area += part * part;
-    }
-}
-
 /* Adds a triangle unless it has no area. */
 static void add_triangle(crease_mesh *mesh, const uint32_t corners[3], uint32_t owner)
 {
-    double area, side;
-    measure(mesh->vertices, corners, &area, &side);
-    if (!(area > 1e-28 * side * side))
+    const double *const at[3] = {mesh->vertices + 3 * (size_t)corners[0],
+        mesh->vertices + 3 * (size_t)corners[1], mesh->vertices + 3 * (size_t)corners[2]};
+    double edges[2][3], normal[3];
+    for (int c = 0; c < 3; c++) {
+        edges[0][c] = at[1][c] - at[0][c];
+        edges[1][c] = at[2][c] - at[0][c];
+    }
+    crease_vector_cross(edges[0], edges[1], normal);
+    const double longest =
+        fmax(crease_vector_length(edges[0]), crease_vector_distance(at[1], at[2]));
+    if (!(crease_vector_length(normal) > 1e-14 * longest * longest))
         return;
     memcpy(mesh->triangles + 3 * mesh->triangle_count, corners, 3 * sizeof *corners);
     mesh->owners[mesh->triangle_count++] = owner;
 }
 
-static double squared_distance(const double *vertices, uint32_t a, uint32_t b)
+static double diagonal(const double *vertices, uint32_t a, uint32_t b)
 {
-    double squared = 0.0;
-    for (size_t c = 0; c < 3; c++) {
-        const double way = vertices[3 * (size_t)a + c] - vertices[3 * (size_t)b + c];
-        squared += way * way;
-    }
-    return squared;
+    return crease_vector_distance(vertices + 3 * (size_t)a, vertices + 3 * (size_t)b);
 }
 
 /* Two triangles along the shorter diagonal, turning the way of the surface's normal. */
@@ -237,8 +218,7 @@ static void add_cell(crease_mesh *mesh, uint32_t corner, uint32_t width, uint32_
     const uint32_t b = corner + width;
     const uint32_t c = b + 1;
     const uint32_t d = a + 1;
-    const bool first =
-        squared_distance(mesh->vertices, a, c) <= squared_distance(mesh->vertices, b, d);
+    const bool first = diagonal(mesh->vertices, a, c) <= diagonal(mesh->vertices, b, d);
     const uint32_t lower[3] = {a, b, first ? c : d};
     const uint32_t upper[3] = {first ? a : b, c, d};
     add_triangle(mesh, lower, owner);
@@ -287,7 +267,7 @@ static crease_status make_room(crease_context *context, work *w)
 static crease_status tessellate(
     crease_context *context, const crease_surface *const *surfaces, double tolerance, work *w)
 {
-    const double size = diagonal(surfaces, w->count);
+    const double size = extent(surfaces, w->count);
     const double chosen = tolerance > 0.0 ? tolerance : size / 2000.0;
     crease_status status = make_grids(context, surfaces, chosen, size, w);
     if (status == CREASE_OK)

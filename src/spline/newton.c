@@ -9,6 +9,8 @@
  * Based on: Nocedal, Wright. Numerical optimization. 2006, sections 3.1, 10.3 and 16.7. */
 #include "spline/newton.h"
 
+#include "base/vector.h"
+
 #include <math.h>
 
 enum { MOST_STEPS = 50, MOST_HALVINGS = 40 };
@@ -16,11 +18,6 @@ enum { MOST_STEPS = 50, MOST_HALVINGS = 40 };
 static const double SMALL_STEP = 1e-14;
 /* Relative rounding error of a squared distance: less is no change. */
 static const double ROUNDING = 1e-13;
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 typedef struct quadratic {
     double gradient[2];
@@ -30,11 +27,12 @@ typedef struct quadratic {
 
 static quadratic expand(const crease_patch_point *p)
 {
-    quadratic q = {.gradient = {dot(p->s, p->u), dot(p->s, p->v)},
-        .gauss = {dot(p->u, p->u), dot(p->u, p->v), dot(p->v, p->v)}};
-    q.hessian[0] = q.gauss[0] + dot(p->s, p->uu);
-    q.hessian[1] = q.gauss[1] + dot(p->s, p->uv);
-    q.hessian[2] = q.gauss[2] + dot(p->s, p->vv);
+    quadratic q = {.gradient = {crease_vector_dot(p->s, p->u), crease_vector_dot(p->s, p->v)},
+        .gauss = {crease_vector_dot(p->u, p->u), crease_vector_dot(p->u, p->v),
+            crease_vector_dot(p->v, p->v)}};
+    q.hessian[0] = q.gauss[0] + crease_vector_dot(p->s, p->uu);
+    q.hessian[1] = q.gauss[1] + crease_vector_dot(p->s, p->uv);
+    q.hessian[2] = q.gauss[2] + crease_vector_dot(p->s, p->vv);
     return q;
 }
 
@@ -102,7 +100,7 @@ static double share_inside(
 static bool advance(const crease_patch *patch, const double lowest[2], const double highest[2],
     const double step[2], double at[2], crease_patch_point *point)
 {
-    const double before = dot(point->s, point->s);
+    const double before = crease_vector_dot(point->s, point->s);
     double share = share_inside(lowest, highest, at, step);
     for (int i = 0; i < MOST_HALVINGS; i++, share *= 0.5) {
         double next[2];
@@ -113,7 +111,7 @@ static bool advance(const crease_patch *patch, const double lowest[2], const dou
         }
         crease_patch_point there;
         crease_patch_evaluate(patch, next, &there);
-        if (dot(there.s, there.s) <= before * (1.0 + ROUNDING)) {
+        if (crease_vector_dot(there.s, there.s) <= before * (1.0 + ROUNDING)) {
             at[0] = next[0];
             at[1] = next[1];
             *point = there;
@@ -137,5 +135,5 @@ double crease_newton_descend(
         if (!advance(patch, lowest, highest, step, at, &point))
             break;
     }
-    return dot(point.s, point.s);
+    return crease_vector_dot(point.s, point.s);
 }

@@ -5,6 +5,7 @@
  * that repeat (the paper's creases) make the derivative across them zero, and at a pole the
  * derivative along the collapsed border is zero. There the normal is the limit from inside the side
  * asked for: the first non-vanishing term of the power series of S_u x S_v along the diagonal. */
+#include "base/vector.h"
 #include "spline/basis.h"
 #include "spline/surface.h"
 
@@ -12,18 +13,14 @@
 
 enum { WIDTH = CREASE_ORDER_MAX + 1, MOST_TERMS = 2 * CREASE_ORDER_MAX };
 
-static void cross(const double a[3], const double b[3], double out[3])
+/* Adds a x b. */
+static void add_cross(const double a[3], const double b[3], double out[3])
 {
     for (int c = 0; c < 3; c++) {
         const int d = (c + 1) % 3;
         const int e = (c + 2) % 3;
         out[c] += a[d] * b[e] - a[e] * b[d];
     }
-}
-
-static double length(const double a[3])
-{
-    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
 }
 
 /* Longest step between neighbouring control points of the span, along either direction: bounds the
@@ -40,7 +37,7 @@ static void measure_steps(const crease_surface *surface, const size_t span[2], d
                     continue;
                 const double *const next = at + 3 * (d == 0 ? n : 1);
                 const double step[3] = {next[0] - at[0], next[1] - at[1], next[2] - at[2]};
-                longest[d] = fmax(longest[d], length(step));
+                longest[d] = fmax(longest[d], crease_vector_length(step));
             }
         }
 }
@@ -76,8 +73,8 @@ static void limit_normal(double (*const derivatives)[WIDTH][3], const double way
         series_term(derivatives, way, 1, n, along[1][n]);
         normal[0] = normal[1] = normal[2] = 0.0;
         for (int a = 0; a <= n; a++)
-            cross(along[0][a], along[1][n - a], normal);
-        if (length(normal) > least)
+            add_cross(along[0][a], along[1][n - a], normal);
+        if (crease_vector_length(normal) > least)
             return;
     }
     normal[0] = normal[1] = normal[2] = 0.0;
@@ -114,13 +111,6 @@ static void scaled_derivatives(const crease_surface *surface, const size_t span[
     }
 }
 
-static void set_unit(double normal[3])
-{
-    const double size = length(normal);
-    for (int c = 0; c < 3 && size > 0.0; c++)
-        normal[c] /= size;
-}
-
 void crease_surface_normal(
     const crease_surface *surface, const double uv[2], const crease_side sides[2], double normal[3])
 {
@@ -136,15 +126,15 @@ void crease_surface_normal(
     measure_steps(surface, span, longest);
     crease_surface_evaluate(surface, at, sides, 1, &first[0][0][0]);
     normal[0] = normal[1] = normal[2] = 0.0;
-    cross(first[1][0], first[0][1], normal);
+    add_cross(first[1][0], first[0][1], normal);
     const double scale = longest[0] * longest[1];
     const double area = (surface->knots[0][span[0] + 1] - surface->knots[0][span[0]]) *
         (surface->knots[1][span[1] + 1] - surface->knots[1][span[1]]);
-    if (length(normal) * area <= 1e-4 * scale) {
+    if (crease_vector_length(normal) * area <= 1e-4 * scale) {
         double derivatives[WIDTH][WIDTH][3] = {{{0}}};
         scaled_derivatives(surface, span, at, derivatives);
         limit_normal(
             derivatives, way, surface->order[0] + surface->order[1] - 1, 1e-11 * scale, normal);
     }
-    set_unit(normal);
+    crease_vector_normalise(normal);
 }
