@@ -221,10 +221,11 @@ static void place_camera(drawing *d, const crease_area *room)
 
 /* --------------------------------------------------------------------------------- drawing -- */
 
-/* The radius of a cloud's dots: smaller the more there are. */
+/* The radius of a cloud's dots: smaller the more there are, but never too small to be seen. */
 static double dot_radius(const drawing *d, size_t count)
 {
-    return d->canvas.unit * fmin(5.5, fmax(1.1, 90 / sqrt((double)count + 1)));
+    const double radius = fmin(5.5, fmax(1.1, 90 / sqrt((double)count + 1)));
+    return fmax(0.6, d->canvas.unit * radius);
 }
 
 static bool is_drawn(const crease_layer *layer)
