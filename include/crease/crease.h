@@ -216,7 +216,9 @@ CREASE_API crease_status crease_shape_panel(
 /* -------------------------------------------------------------------------- reading clouds -- */
 
 typedef struct crease_read_options {
-    bool skip_invalid; /**< leave out points that are not finite (with a warning); default: error */
+    /** Leave out points that are not finite or beyond 1e150, where squared distances overflow (with
+     * one warning that counts them). Default: the first of them is an error. */
+    bool skip_invalid;
 } crease_read_options;
 
 CREASE_API crease_read_options crease_read_options_default(void);
@@ -468,9 +470,10 @@ CREASE_API const uint32_t *crease_mesh_owners(const crease_mesh *mesh);
 
 /* ----------------------------------------------------------------------------------- writing -- */
 
-/** Writes a cloud with its normals and fields: PLY (binary little endian) or XYZ / TXT / CSV / ASC
- * / PTS by extension. Every writer writes beside the target first and then renames: a failure or a
- * signal leaves the old file or none, never half of one. Errors: CANNOT_WRITE, ARGUMENT. */
+/** Writes a cloud with its normals and fields: PLY or PCD (binary), XYZ / TXT / CSV / ASC / PTS by
+ * extension. What is read back is the same to the bit, text in the digits of its type. Every writer
+ * writes beside the target first and then renames: a failure or a signal leaves the old file or
+ * none, never half of one. Errors: CANNOT_WRITE, ARGUMENT. */
 CREASE_API crease_status crease_cloud_write(
     crease_context *context, const crease_cloud *cloud, const char *path);
 /** Writes bytes to a file, in the same careful way. */
