@@ -33,11 +33,20 @@ typedef struct pcd {
 
 /* ------------------------------------------------------------------------------------ header -- */
 
+/* Number of the line on which a word of the header stands. */
+static size_t line_of(const pcd *file, crease_span word)
+{
+    size_t line = 1;
+    for (const char *at = file->source->bytes; at < word.at; at++)
+        line += *at == '\n';
+    return line;
+}
+
 static crease_status fail_header(const pcd *file, const char *what, crease_span word)
 {
     char text[CREASE_EXCERPT_SIZE];
     return crease_fail(file->context, CREASE_ERROR_FORMAT, "%s: line %zu: %s '%s'; mend the header",
-        file->source->name, file->cursor.line, what, crease_span_excerpt(word, text));
+        file->source->name, line_of(file, word), what, crease_span_excerpt(word, text));
 }
 
 static crease_span *find_entry(pcd *file, crease_span word)

@@ -196,7 +196,7 @@ static void given_wrong_headers_then_a_sentence_says_where(void **state)
     then_text_fails("a.pcd", BEGIN, CREASE_ERROR_TRUNCATED, "ends before DATA");
     then_text_fails("a.pcd", BEGIN "HELLO 1\n", format, "line 2: unknown word in the header: 'HE");
     then_text_fails("a.pcd", BEGIN FIELDS "WIDTH 1\nDATA zip\n", format, "kind of DATA: 'zip'");
-    then_text_fails("a.pcd", BEGIN FIELDS "WIDTH -1\nDATA ascii\n", format, "WIDTH is no whole");
+    then_text_fails("a.pcd", BEGIN FIELDS "WIDTH -1\nDATA ascii\n", format, "line 5: WIDTH is no");
     then_text_fails(
         "a.pcd", BEGIN FIELDS "WIDTH 1\nHEIGHT x\nDATA ascii\n", format, "HEIGHT is no");
     then_text_fails("a.pcd", BEGIN FIELDS "POINTS\nDATA ascii\n", format, "POINTS is no whole");
