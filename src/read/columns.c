@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_COLUMNS = 2048, LONGEST_NAME = 200 };
+enum { LONGEST_NAME = 200 };
 
 /* The square of a distance between such points is still a number. */
 static const double most_coordinate = 1e150;
@@ -127,10 +127,6 @@ crease_status crease_columns_settle(
             return crease_fail(context, CREASE_ERROR_FORMAT,
                 "%s: its points have no coordinate '%c'; name three columns x, y and z",
                 source->name, "xyz"[role]);
-    if (columns->count > MOST_COLUMNS)
-        return crease_fail(context, CREASE_ERROR_FORMAT,
-            "%s: its points have %zu columns; at most %d are read, leave some out", source->name,
-            columns->count, MOST_COLUMNS);
     settle_roles(columns);
     return check_names(context, source, columns);
 }

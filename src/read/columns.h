@@ -13,6 +13,9 @@
 /* How a file holds one value: a crease_type, or one of those that become FLOAT64. */
 enum { CREASE_CELL_INT64 = CREASE_TYPE_FLOAT64 + 1, CREASE_CELL_UINT64, CREASE_CELL_COUNT };
 
+/* No file of points has more; readers refuse it before they add so many. */
+enum { CREASE_MOST_COLUMNS = 2048 };
+
 /* Bytes of a cell. */
 size_t crease_cell_size(int cell);
 

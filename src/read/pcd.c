@@ -14,8 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_VALUES = 2048 };
-
 typedef enum coding { CODING_ASCII, CODING_BINARY, CODING_COMPRESSED } coding;
 
 typedef struct pcd {
@@ -179,7 +177,7 @@ static crease_status read_fields(pcd *file)
             return fail_header(file, "there is no such TYPE and SIZE, of field", name);
         if (counts.at && (!crease_span_word(&counts, &word) || !crease_span_count(word, &count)))
             return fail_header(file, "there is no COUNT for field", name);
-        if (count > MOST_VALUES || file->columns.count + count > MOST_VALUES)
+        if (count > CREASE_MOST_COLUMNS || file->columns.count + count > CREASE_MOST_COLUMNS)
             return fail_header(file, "more than 2048 values for a point, with field", name);
         const crease_status status = add_field(file, name, cell, count);
         if (status != CREASE_OK)

@@ -86,6 +86,8 @@ static crease_status read_property(ply *file, crease_span line)
     if (!file->element_count)
         return fail_header(file, "a property before the first element:", line);
     crease_columns *properties = &file->elements[file->element_count - 1].properties;
+    if (properties->count == CREASE_MOST_COLUMNS)
+        return fail_header(file, "more than 2048 properties:", line);
     crease_span rest = line, word;
     int cell = 0, item = 0;
     const bool list = crease_span_word(&rest, &word) && crease_span_is(word, "list");

@@ -234,6 +234,10 @@ static crease_status find_columns(xyz *file)
         return fail_columns(file, numbers);
     size_t unused = 0;
     const size_t count = count_cells(row, file->separator, &unused);
+    if (count > CREASE_MOST_COLUMNS)
+        return crease_fail(file->context, CREASE_ERROR_FORMAT,
+            "%s: line %zu: has %zu columns; at most %d are read, leave some out",
+            file->source->name, file->first_line, count, CREASE_MOST_COLUMNS);
     char names = header_separator(file, file->header, count, false);
     if (file->header.at && !names)
         return crease_fail(file->context, CREASE_ERROR_FORMAT,

@@ -236,6 +236,18 @@ static void given_huge_counts_then_nothing_of_that_size_is_allocated(void **stat
         CREASE_ERROR_TRUNCATED, "'face'");
 }
 
+static void given_too_many_properties_then_they_are_refused_before_they_take_memory(void **state)
+{
+    enum { SIZE = 60000 };
+    char *text = malloc(SIZE);
+    assert_non_null(text);
+    size_t size = (size_t)sprintf(text, "ply\nformat ascii 1.0\nelement vertex 0\n");
+    for (int i = 0; i < 2049; i++)
+        size += (size_t)sprintf(text + size, "property int a%d\n", i);
+    then_bytes_fail("a.ply", text, size, CREASE_ERROR_FORMAT, "line 2052: more than 2048");
+    free(text);
+}
+
 static void given_a_list_of_negative_length_then_a_sentence_says_where(void **state)
 {
     static const char bytes[] =
@@ -313,6 +325,7 @@ int main(void)
         cmocka_unit_test(given_wrong_headers_then_a_sentence_says_where),
         cmocka_unit_test(given_wrong_rows_then_a_sentence_says_where),
         cmocka_unit_test(given_huge_counts_then_nothing_of_that_size_is_allocated),
+        cmocka_unit_test(given_too_many_properties_then_they_are_refused_before_they_take_memory),
         cmocka_unit_test(given_a_list_of_negative_length_then_a_sentence_says_where),
         cmocka_unit_test(given_points_that_are_not_finite_then_error_or_left_out),
         cmocka_unit_test(given_a_binary_point_that_is_infinite_then_its_byte_is_named),

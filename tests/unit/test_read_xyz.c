@@ -199,7 +199,7 @@ static void given_a_line_of_ten_megabytes_then_it_is_survived(void **state)
     crease_context_free(context);
     for (size_t i = 0; i < SIZE; i++)
         text[i] = i % 2 ? ' ' : '1';
-    then_bytes_fail("a.xyz", text, SIZE, CREASE_ERROR_FORMAT, "columns");
+    then_bytes_fail("a.xyz", text, SIZE, CREASE_ERROR_FORMAT, "line 1: has 5242880 columns");
     free(text);
 }
 
