@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* usage: bench-scores [MOST_POINTS]
+ * Bootstrap variance and decision with the defaults, and the memory they add to the cloud's own. */
+#include "bench.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static void measure(const crease_cloud *cloud, int threads)
+{
+    crease_context *context = bench_context(threads);
+    crease_scores *scores = NULL;
+    const size_t count = crease_cloud_count(cloud);
+    const double memory = bench_memory();
+    const bench_clock start = bench_now();
+    if (crease_scores_compute(context, cloud, NULL, &scores) == CREASE_OK) {
+        const bench_clock end = bench_now();
+        printf("{\"bench\": \"scores\", \"who\": \"crease\", \"points\": %zu, \"threads\": %d, "
+               "\"cpu_s\": %.3f, \"wall_s\": %.3f, \"bytes_per_point\": %.1f}\n",
+            count, threads, end.cpu - start.cpu, end.wall - start.wall,
+            (bench_memory() - memory) / (double)count);
+        fflush(stdout);
+    }
+    crease_scores_free(scores);
+    crease_context_free(context);
+}
+
+int main(int count, char **arguments)
+{
+    const size_t most = count > 1 ? strtoul(arguments[1], NULL, 10) : 1000000;
+    crease_context *context = bench_context(2);
+    for (size_t points = 100000; points <= most; points *= 10) {
+        double *coordinates = bench_points(context, points, false);
+        crease_cloud *cloud = coordinates ? bench_cloud(context, coordinates, points) : NULL;
+        free(coordinates);
+        for (int threads = 2; threads >= 1 && cloud; threads--)
+            measure(cloud, threads);
+        crease_cloud_free(cloud);
+    }
+    crease_context_free(context);
+    return 0;
+}
