@@ -8,6 +8,8 @@
 #ifndef CREASE_BASE_SIMD_H
 #define CREASE_BASE_SIMD_H
 
+#include <limits.h> /* says whether this is glibc, whose loader chooses the version */
+
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) &&       \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define CREASE_VECTORISED __attribute__((target_clones("avx512f", "avx2", "default")))

@@ -114,20 +114,6 @@ CREASE_INLINE double solve(const matrix *a, vector *out, double *spread)
     return guess_length < length ? guess_length : length;
 }
 
-CREASE_VECTORISED static void solve_all(
-    const crease_matrices *matrices, size_t count, crease_directions *directions, double *strengths)
-{
-    for (size_t i = 0; i < count; i += LANES)
-        for (size_t j = i; j < i + LANES; j++) {
-            const matrix a = scaled(matrices, j);
-            vector v;
-            strengths[j] = solve(&a, &v, &directions->spread[j]);
-            directions->x[j] = v.x;
-            directions->y[j] = v.y;
-            directions->z[j] = v.z;
-        }
-}
-
 /* A unit vector across v, which is not 0. */
 static vector across(const vector *v)
 {
@@ -152,11 +138,19 @@ static vector solve_double(const matrix *a)
     return square(&v3) > 1e-24 ? across(&v3) : (vector){0, 0, 1};
 }
 
-void crease_eigen_smallest(
-    const crease_matrices *matrices, size_t count, crease_directions *directions)
+CREASE_VECTORISED void crease_eigen_smallest(
+    const crease_matrices *restrict matrices, size_t count, crease_directions *restrict directions)
 {
     double strengths[CREASE_BATCH];
-    solve_all(matrices, count, directions, strengths);
+    const size_t whole = (count + LANES - 1) / LANES * LANES;
+    for (size_t i = 0; i < whole; i++) {
+        const matrix a = scaled(matrices, i);
+        vector v;
+        strengths[i] = solve(&a, &v, &directions->spread[i]);
+        directions->x[i] = v.x;
+        directions->y[i] = v.y;
+        directions->z[i] = v.z;
+    }
     for (size_t i = 0; i < count; i++) {
         if (strengths[i] >= weakest)
             continue;

@@ -26,6 +26,6 @@ typedef struct crease_directions {
  * the smallest eigenvalue is double or triple, any one vector of its space. Works on whole groups
  * of eight: the matrices up to the next multiple of eight must be set, to anything. */
 void crease_eigen_smallest(
-    const crease_matrices *matrices, size_t count, crease_directions *directions);
+    const crease_matrices *restrict matrices, size_t count, crease_directions *restrict directions);
 
 #endif

@@ -7,6 +7,7 @@
 #include "detect/bootstrap.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { X, Y, Z, XX, XY, XZ, YY, YZ, ZZ };
 
@@ -34,42 +35,50 @@ void crease_neighbourhood_fill(
 }
 
 CREASE_INLINE void centre(
-    const double sums[CREASE_MOMENTS], double k, crease_matrices *matrices, size_t lane)
+    const double sums[CREASE_MOMENTS], double share, crease_matrices *matrices, size_t lane)
 {
-    matrices->xx[lane] = sums[XX] - sums[X] * sums[X] / k;
-    matrices->xy[lane] = sums[XY] - sums[X] * sums[Y] / k;
-    matrices->xz[lane] = sums[XZ] - sums[X] * sums[Z] / k;
-    matrices->yy[lane] = sums[YY] - sums[Y] * sums[Y] / k;
-    matrices->yz[lane] = sums[YZ] - sums[Y] * sums[Z] / k;
-    matrices->zz[lane] = sums[ZZ] - sums[Z] * sums[Z] / k;
+    matrices->xx[lane] = sums[XX] - sums[X] * sums[X] * share;
+    matrices->xy[lane] = sums[XY] - sums[X] * sums[Y] * share;
+    matrices->xz[lane] = sums[XZ] - sums[X] * sums[Z] * share;
+    matrices->yy[lane] = sums[YY] - sums[Y] * sums[Y] * share;
+    matrices->yz[lane] = sums[YZ] - sums[Y] * sums[Z] * share;
+    matrices->zz[lane] = sums[ZZ] - sums[Z] * sums[Z] * share;
 }
 
-CREASE_INLINE void add(double sums[CREASE_MOMENTS], const double row[CREASE_MOMENTS])
-{
-    for (int m = 0; m < CREASE_MOMENTS; m++)
-        sums[m] += row[m];
-}
+/* Four moments at a time. */
+typedef double quad __attribute__((vector_size(32), aligned(8), may_alias));
 
 void crease_neighbourhood_covariance(
     const crease_neighbourhood *neighbourhood, crease_matrices *matrices, size_t lane)
 {
     double sums[CREASE_MOMENTS] = {0};
     for (int i = 0; i < neighbourhood->k; i++)
-        add(sums, neighbourhood->moments[i]);
-    centre(sums, neighbourhood->k, matrices, lane);
+        for (int m = 0; m < CREASE_MOMENTS; m++)
+            sums[m] += neighbourhood->moments[i][m];
+    centre(sums, 1.0 / neighbourhood->k, matrices, lane);
 }
 
 CREASE_VECTORISED void crease_neighbourhood_resample(const crease_neighbourhood *neighbourhood,
     const uint32_t *words, size_t count, crease_matrices *matrices)
 {
     const int k = neighbourhood->k;
+    const double share = 1.0 / k;
+    const size_t stride = crease_bootstrap_words(k);
     uint8_t members[CREASE_MOST_NEIGHBOURS];
     for (size_t lane = 0; lane < count; lane++) {
-        double sums[CREASE_MOMENTS] = {0};
+        quad first = {0}, second = {0}, third = {0};
         crease_bootstrap_members(words, k, members);
-        words += crease_bootstrap_words(k);
-        for (int i = 0; i < k; i++)
-            add(sums, neighbourhood->moments[members[i]]);
-        centre(sums, k, matrices, lane);
+        words += stride;
+        for (int i = 0; i < k; i++) {
+            const quad *const row = (const quad *)neighbourhood->moments[members[i]];
+            first += row[0];
+            second += row[1];
+            third += row[2];
+        }
+        double sums[CREASE_MOMENTS];
+        memcpy(sums, &first, sizeof first);
+        memcpy(sums + 4, &second, sizeof second);
+        memcpy(sums + 8, &third, sizeof third);
+        centre(sums, share, matrices, lane);
     }
 }
