@@ -8,16 +8,18 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "detect/threshold.h"
+#include "space/nearest.h"
 
 #include <stdlib.h>
 
-enum { LEAF_GRAIN = 16, LEAST_NEIGHBOURS = 4, MOST_RESAMPLES = 10000 };
+enum { LEAF_GRAIN = 16, POINT_GRAIN = 1024, LEAST_NEIGHBOURS = 4, MOST_RESAMPLES = 10000 };
 
 typedef struct scoring {
     const crease_tree *tree;
     crease_scores *scores;
     uint64_t seed;
     int k, resamples;
+    double threshold;          /* least variance of a feature */
     crease_resamples *workers; /* one for each thread */
     double *memory;
     uint32_t *pending;
@@ -80,8 +82,37 @@ static crease_status allocate(crease_context *context, scoring *run)
     return CREASE_OK;
 }
 
+/* Whether the point at a position is at least as sharp as the mean of twice its neighbours: an edge
+ * raises the variance of all points whose neighbourhoods reach it, most so on the edge itself. */
+static bool stands_out(const scoring *run, uint32_t position)
+{
+    const crease_tree *const tree = run->tree;
+    const double *const variance = run->scores->variance;
+    const double place[3] = {tree->x[position], tree->y[position], tree->z[position]};
+    uint32_t positions[CREASE_MOST_NEIGHBOURS];
+    double distances[CREASE_MOST_NEIGHBOURS];
+    int k = 2 * run->k < CREASE_MOST_NEIGHBOURS ? 2 * run->k : CREASE_MOST_NEIGHBOURS;
+    k = (size_t)k < tree->count ? k : (int)tree->count;
+    crease_tree_nearest_place(tree, place, position, k, positions, distances);
+    double sum = 0;
+    for (int i = 0; i < k; i++)
+        sum += variance[tree->index[positions[i]]];
+    return variance[tree->index[position]] * k >= sum;
+}
+
+static void mark_features(void *user, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const scoring *run = user;
+    for (size_t position = begin; position < end; position++) {
+        const uint32_t index = run->tree->index[position];
+        run->scores->features[index] =
+            run->scores->variance[index] >= run->threshold && stands_out(run, (uint32_t)position);
+    }
+}
+
 /* Points without a normal tell nothing; a cloud of nothing else is no surface. */
-static crease_status decide(crease_context *context, const scoring *run, double rate)
+static crease_status decide(crease_context *context, scoring *run, double rate)
 {
     crease_scores *const scores = run->scores;
     size_t degenerate = 0;
@@ -92,10 +123,8 @@ static crease_status decide(crease_context *context, const scoring *run, double 
             "scores: the %d nearest points of every point lie on a line or in one point; take more "
             "neighbours or leave out duplicate points",
             run->k);
-    const double threshold = crease_threshold_find(scores->variance, scores->count, run->k, rate);
-    for (size_t i = 0; i < scores->count; i++)
-        scores->features[i] = scores->variance[i] >= threshold;
-    return CREASE_OK;
+    run->threshold = crease_threshold_find(scores->variance, scores->count, run->k, rate);
+    return crease_parallel_for(context, scores->count, POINT_GRAIN, mark_features, run);
 }
 
 static crease_status compute(crease_context *context, scoring *run, double rate)

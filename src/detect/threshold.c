@@ -2,11 +2,12 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* On smooth ground the logarithm of the variance is close to normally distributed: its centre
- * follows from noise, spacing and K, its width from K. Both are read off the lower half of all
- * values, which edges do not reach: the median and the 16th percentile. Each point's probability
- * under this null then goes through the step-up rule for the false discovery rate. On data without
- * noise the null is a point at zero, so a least variance is asked for as well: that of an edge
- * where the normals turn by ten degrees.
+ * follows from noise, spacing and K, its width is about 2 / sqrt(K). Both are read off the lower
+ * half of all values, which edges do not reach: the median and the 16th percentile; where a cloud
+ * is a mixture (flat faces beside curved ones, without noise), the width is held near its
+ * theoretical value. Each point's probability under this null then goes through the step-up rule
+ * for the false discovery rate. On data without noise the null is a point at zero, so a least
+ * variance is asked for as well: that of an edge where the normals turn by ten degrees.
  *
  * Based on: Benjamini, Hochberg. Controlling the false discovery rate. 1995.
  * Based on: Efron. Large-scale simultaneous hypothesis testing: the choice of a null hypothesis.
@@ -76,7 +77,8 @@ double crease_threshold_find(const double *variance, size_t count, int k, double
     for (size_t i = 0; i < count; i++)
         histogram[bin_of(variance[i])]++;
     const double centre = quantile(histogram, count, 0.5);
-    const double width = fmax(centre - quantile(histogram, count, 0.1587), 1.0 / PER_UNIT);
+    const double measured = fmax(centre - quantile(histogram, count, 0.1587), 1.0 / PER_UNIT);
+    const double width = fmin(measured, 3 / sqrt(k));
     const size_t first = step_up(histogram, count, centre, width, rate);
     if (first == BINS)
         return INFINITY;
