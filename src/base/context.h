@@ -7,8 +7,6 @@
 
 #include "crease/crease.h"
 
-/* C++ (src/cad) sees the functions only: <stdatomic.h> is C. */
-#ifndef __cplusplus
 #include <stdatomic.h>
 
 struct crease_context {
@@ -18,11 +16,6 @@ struct crease_context {
     atomic_bool cancelled;   /* set once the caller asked to stop */
     atomic_long allocations; /* allocations left before one fails on purpose; negative: no limit */
 };
-#endif
-
-#ifdef __cplusplus
-extern "C" {
-#endif
 
 /* The library's own short name for storing a sentence "where: what; what to do" and returning the
  * status. From the calling thread only. */
@@ -43,9 +36,5 @@ crease_status crease_fail_cancelled(crease_context *context);
 
 /* Makes the n-th allocation from now fail (0 = the next one, negative = none): for tests. */
 void crease_context_fail_allocation(crease_context *context, long n);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif

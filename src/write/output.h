@@ -21,10 +21,6 @@
 
 #include "base/context.h"
 
-#ifdef __cplusplus
-extern "C" {
-#endif
-
 typedef struct crease_output crease_output;
 
 /* Begins to write a file. Errors: CANNOT_WRITE, NO_MEMORY. */
@@ -61,9 +57,5 @@ bool crease_output_temporary_name(const char *target, char *out, size_t size);
  * sentence that names them all. */
 crease_status crease_output_choose(crease_context *context, const char *path,
     const char *const *extensions, size_t count, size_t *choice);
-
-#ifdef __cplusplus
-}
-#endif
 
 #endif
