@@ -352,6 +352,9 @@ CREASE_API crease_status crease_surface_insert_knot(crease_context *context,
 CREASE_API crease_status crease_surface_split(crease_context *context,
     const crease_surface *surface, int direction, double t, crease_surface **lower,
     crease_surface **upper);
+/** The same surface with knots of full multiplicity at both ends of both directions. */
+CREASE_API crease_status crease_surface_clamp(
+    crease_context *context, const crease_surface *surface, crease_surface **out);
 /** The surface with u and v exchanged. */
 CREASE_API crease_status crease_surface_transpose(
     crease_context *context, const crease_surface *surface, crease_surface **out);

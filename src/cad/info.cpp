@@ -1,4 +1,171 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-#include "crease/crease_cad.h"
+/* What a CAD program would find in a file. */
+#include "cad/apart.hpp"
+#include "cad/kernel.hpp"
+#include "cad/read.hpp"
+
+#include <BRepAdaptor_Surface.hxx>
+#include <BRepBndLib.hxx>
+#include <BRepCheck_Analyzer.hxx>
+#include <BRepGProp.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <GProp_GProps.hxx>
+#include <Geom2d_Curve.hxx>
+#include <ShapeAnalysis_ShapeTolerance.hxx>
+#include <TopExp.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace crease_cad
+{
+
+static constexpr double INTEGRAL_ERROR = 1e-9; /* relative, of areas and volumes */
+static constexpr double SHARP_ANGLE = 10.0;    /* degrees */
+static constexpr int ANGLE_SAMPLES = 16;
+
+static TopTools_IndexedMapOfShape parts_of(const TopoDS_Shape &shape, TopAbs_ShapeEnum kind)
+{
+    TopTools_IndexedMapOfShape parts;
+    TopExp::MapShapes(shape, kind, parts);
+    return parts;
+}
+
+/* The outward normal of the face at the edge's parameter, where it has one. */
+static std::optional<gp_Dir> normal_at(
+    const TopoDS_Edge &edge, const TopoDS_Face &face, double part)
+{
+    double first = 0, last = 0;
+    const Handle(Geom2d_Curve) line = BRep_Tool::CurveOnSurface(edge, face, first, last);
+    if (line.IsNull())
+        return std::nullopt;
+    const gp_Pnt2d uv = line->Value(first + (last - first) * part);
+    gp_Pnt point;
+    gp_Vec along_u, along_v;
+    BRepAdaptor_Surface(face, false).D1(uv.X(), uv.Y(), point, along_u, along_v);
+    const gp_Vec normal = along_u.Crossed(along_v);
+    if (normal.Magnitude() <= 1e-9 * along_u.Magnitude() * along_v.Magnitude())
+        return std::nullopt;
+    return gp_Dir(face.Orientation() == TopAbs_REVERSED ? normal.Reversed() : normal);
+}
+
+static bool is_sharp(const TopoDS_Edge &edge, const TopoDS_Face &one, const TopoDS_Face &other)
+{
+    double sum = 0;
+    int samples = 0;
+    for (int i = 0; i <= ANGLE_SAMPLES; i++) {
+        const double part = (double)i / ANGLE_SAMPLES;
+        const std::optional<gp_Dir> a = normal_at(edge, one, part),
+                                    b = normal_at(edge, other, part);
+        if (!a || !b)
+            continue;
+        sum += a->Angle(*b) * 180.0 / M_PI;
+        samples++;
+    }
+    return samples > 0 && sum / samples > SHARP_ANGLE;
+}
+
+static void count_edges(const TopoDS_Shape &shape, crease_cad_info &info)
+{
+    TopTools_IndexedDataMapOfShapeListOfShape edges;
+    TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, edges);
+    for (int i = 1; i <= edges.Extent(); i++) {
+        const TopoDS_Edge edge = TopoDS::Edge(edges.FindKey(i));
+        if (BRep_Tool::Degenerated(edge))
+            continue;
+        info.edges++;
+        const TopTools_ListOfShape &faces = edges(i);
+        if (faces.IsEmpty())
+            continue;
+        const TopoDS_Face first = TopoDS::Face(faces.First()), last = TopoDS::Face(faces.Last());
+        if (faces.Extent() == 1 && !BRep_Tool::IsClosed(edge, first))
+            info.free_edges++;
+        else if (faces.Extent() == 2 && !first.IsSame(last) && is_sharp(edge, first, last))
+            info.sharp_edges++;
+    }
+}
+
+static void count_faces(const TopoDS_Shape &shape, crease_cad_info &info)
+{
+    const TopTools_IndexedMapOfShape faces = parts_of(shape, TopAbs_FACE);
+    info.faces = (size_t)faces.Extent();
+    for (int i = 1; i <= faces.Extent(); i++) {
+        const GeomAbs_SurfaceType type =
+            BRepAdaptor_Surface(TopoDS::Face(faces(i)), false).GetType();
+        if (type == GeomAbs_BSplineSurface)
+            info.bspline_faces++;
+        else if (type == GeomAbs_Plane)
+            info.plane_faces++;
+        else
+            info.other_faces++;
+    }
+}
+
+static void count_shells(const TopoDS_Shape &shape, crease_cad_info &info)
+{
+    const TopTools_IndexedMapOfShape shells = parts_of(shape, TopAbs_SHELL);
+    info.shells = (size_t)shells.Extent();
+    for (int i = 1; i <= shells.Extent(); i++)
+        if (BRep_Tool::IsClosed(shells(i)))
+            info.closed_shells++;
+}
+
+static void measure(const TopoDS_Shape &shape, double unit, crease_cad_info &info)
+{
+    GProp_GProps area;
+    BRepGProp::SurfaceProperties(shape, area, INTEGRAL_ERROR);
+    info.area = area.Mass() / (unit * unit);
+    const TopTools_IndexedMapOfShape solids = parts_of(shape, TopAbs_SOLID);
+    info.solids = (size_t)solids.Extent();
+    for (int i = 1; i <= solids.Extent(); i++) {
+        GProp_GProps volume;
+        BRepGProp::VolumeProperties(solids(i), volume, INTEGRAL_ERROR);
+        info.volume += volume.Mass() / (unit * unit * unit);
+    }
+    Bnd_Box box;
+    BRepBndLib::AddOptimal(shape, box, false, false);
+    if (!box.IsVoid()) {
+        box.SetGap(0.0);
+        box.Get(info.lowest[0], info.lowest[1], info.lowest[2], info.highest[0], info.highest[1],
+            info.highest[2]);
+    }
+    for (int c = 0; c < 3; c++) {
+        info.lowest[c] /= unit;
+        info.highest[c] /= unit;
+    }
+    info.tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(shape, 1) / unit;
+}
+
+static crease_cad_info info_of(const Model &model)
+{
+    crease_cad_info info = {};
+    std::snprintf(info.format, sizeof info.format, "%s", model.format.c_str());
+    std::snprintf(info.schema, sizeof info.schema, "%s", model.schema.c_str());
+    info.vertices = (size_t)parts_of(model.shape, TopAbs_VERTEX).Extent();
+    count_shells(model.shape, info);
+    count_faces(model.shape, info);
+    count_edges(model.shape, info);
+    measure(model.shape, model.unit, info);
+    info.valid = BRepCheck_Analyzer(model.shape).IsValid();
+    return info;
+}
+
+} // namespace crease_cad
+
+crease_status crease_cad_info_read(crease_context *context, const char *path, crease_cad_info *out)
+{
+    *out = {};
+    return crease_cad::guard(context, path, [&] {
+        const auto work = [&] { return crease_cad::info_of(crease_cad::read_model(path)); };
+        *out = crease_cad::run_apart<crease_cad_info>(work);
+    });
+}

@@ -16,9 +16,6 @@ struct crease_surface {
 /* The same surface over knots that hold all of its own along a direction. */
 crease_status crease_surface_refine(crease_context *context, const crease_surface *surface,
     int direction, const double *knots, size_t count, crease_surface **out);
-/* The same surface with knots of full multiplicity at both ends of both directions. */
-crease_status crease_surface_clamp(
-    crease_context *context, const crease_surface *surface, crease_surface **out);
 /* The curve in the surface where the parameter of a direction is t (0: u = t, so it runs along v);
  * clamped as the surface is. */
 crease_status crease_surface_isocurve(crease_context *context, const crease_surface *surface,

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+#include "cad/apart.hpp"
+
+#include "cad/kernel.hpp"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace crease_cad
+{
+
+static constexpr rlim_t MOST_SECONDS = 600; /* of the processor, for one file */
+
+/* What the other process sends before its result. */
+struct Verdict {
+    crease_status status;
+    char sentence[400];
+};
+
+static bool send_all(int pipe, const void *bytes, size_t size)
+{
+    for (const char *at = (const char *)bytes; size > 0;) {
+        const ssize_t sent = write(pipe, at, size);
+        if (sent < 0 && errno != EINTR)
+            return false;
+        at += sent > 0 ? sent : 0;
+        size -= sent > 0 ? (size_t)sent : 0;
+    }
+    return true;
+}
+
+static bool receive_all(int pipe, void *bytes, size_t size)
+{
+    for (char *at = (char *)bytes; size > 0;) {
+        const ssize_t got = read(pipe, at, size);
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return false;
+        at += got > 0 ? got : 0;
+        size -= got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+/* Nothing is printed, no core is left, and an interrupt ends this process only. */
+static void settle()
+{
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+    const rlimit none = {0, 0}, seconds = {MOST_SECONDS, MOST_SECONDS};
+    setrlimit(RLIMIT_CORE, &none);
+    setrlimit(RLIMIT_CPU, &seconds);
+    for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
+        std::signal(number, SIG_DFL);
+}
+
+static void work_here(int pipe, const void *result, size_t size, const std::function<void()> &work)
+{
+    settle();
+    Verdict verdict = {};
+    if (const std::optional<Failure> failure = failure_of(work)) {
+        verdict.status = failure->status;
+        std::snprintf(verdict.sentence, sizeof verdict.sentence, "%s", failure->sentence.c_str());
+    }
+    if (send_all(pipe, &verdict, sizeof verdict))
+        send_all(pipe, result, size);
+}
+
+static Failure end_of(int status)
+{
+    const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    if (number == SIGINT || number == SIGTERM)
+        return {CREASE_ERROR_CANCELLED, "cancelled before it was read"};
+    if (number == SIGXCPU || number == SIGKILL)
+        return {CREASE_ERROR_FORMAT, "OpenCASCADE comes to no end with it; write the file anew"};
+    return {CREASE_ERROR_FORMAT,
+        "the content is damaged, OpenCASCADE broke down over it; write "
+        "the file anew"};
+}
+
+void run_apart(void *result, size_t size, const std::function<void()> &work)
+{
+    int ends[2];
+    if (pipe(ends) != 0)
+        throw Failure{CREASE_ERROR_NO_MEMORY, "too many open files; close some"};
+    for (const int end : ends)
+        fcntl(end, F_SETFD, FD_CLOEXEC);
+    const pid_t child = fork();
+    if (child == 0) {
+        work_here(ends[1], result, size, work);
+        _exit(0);
+    }
+    close(ends[1]);
+    Verdict verdict = {};
+    const bool whole = child > 0 && receive_all(ends[0], &verdict, sizeof verdict) &&
+        receive_all(ends[0], result, size);
+    close(ends[0]);
+    if (child < 0)
+        throw Failure{CREASE_ERROR_NO_MEMORY, "no process is to be had; end some others"};
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        continue;
+    if (!whole)
+        throw end_of(status);
+    if (verdict.status != CREASE_OK)
+        throw Failure{verdict.status, verdict.sentence};
+}
+
+} // namespace crease_cad
