@@ -4,7 +4,8 @@
 /** @file crease.h
  * The whole C interface of libcrease, in the order of the pipeline:
  *
- *   context -> cloud -> neighbours -> scores -> splines -> sheets -> files and figures
+ *   context -> cloud -> neighbours -> noise -> scores -> regions -> splines -> sheets -> files and
+ *   figures
  *
  * Manners, the same everywhere:
  *  - A function that can fail returns a crease_status; its result is the last argument and is set
@@ -262,6 +263,27 @@ CREASE_API crease_status crease_tree_nearest(crease_context *context, const crea
 CREASE_API crease_status crease_tree_within(const crease_tree *tree, const double place[3],
     double radius, size_t capacity, uint32_t *indices, size_t *found);
 
+/* ------------------------------------------------------------------------------------- noise -- */
+
+/** How dense and how noisy a cloud is, and which way its surface faces. */
+typedef struct crease_noise crease_noise;
+
+/** Estimates them from quadrics fitted to the 24 nearest neighbours of every point (10 and 8 where
+ * walls are thin). Deterministic; O(n log n). Errors: TOO_FEW_POINTS (below 4), DEGENERATE (all
+ * points equal or on one line), NO_MEMORY, CANCELLED. */
+CREASE_API crease_status crease_noise_estimate(
+    crease_context *context, const crease_cloud *cloud, crease_noise **out);
+CREASE_API void crease_noise_free(crease_noise *noise);
+CREASE_API size_t crease_noise_count(const crease_noise *noise);
+/** Mean spacing sqrt(area / points), in the unit of the cloud. */
+CREASE_API double crease_noise_spacing(const crease_noise *noise);
+/** Standard deviation of the points along the surface's normal. Never below 0.03 spacings, so that
+ * results for exact data do not hang on rounding. */
+CREASE_API double crease_noise_sigma(const crease_noise *noise);
+/** Unit normals, count x 3, sign arbitrary. Beside a sharp edge the normal is that of the side the
+ * point lies on, not a mean of both. */
+CREASE_API const double *crease_noise_normals(const crease_noise *noise);
+
 /* ------------------------------------------------------------------------------------ scores -- */
 
 /** What every point tells about a sharp edge near it. */
@@ -287,6 +309,64 @@ CREASE_API const double *crease_scores_variance(const crease_scores *scores);
 CREASE_API const double *crease_scores_normals(const crease_scores *scores);
 /** 1 where the point is taken for a feature, else 0. */
 CREASE_API const uint8_t *crease_scores_features(const crease_scores *scores);
+
+/* ----------------------------------------------------------------------------------- regions -- */
+
+/** The smooth pieces that the surface of a cloud consists of. */
+typedef struct crease_regions crease_regions;
+
+/** Kind of surface of a region, and its parameters; places and directions are x y z. */
+typedef enum crease_region_type {
+    CREASE_REGION_PLANE,    /**< point, unit normal: 6 numbers */
+    CREASE_REGION_SPHERE,   /**< centre, radius: 4 */
+    CREASE_REGION_CYLINDER, /**< point of the axis, unit axis, radius: 7 */
+    CREASE_REGION_CONE,     /**< point of the axis, unit axis, radius there, its growth per length
+                                 along the axis: 8 */
+    CREASE_REGION_TORUS,    /**< centre, unit axis, radius of the circle, radius of the tube: 8 */
+    CREASE_REGION_FREEFORM  /**< any other smooth surface: none */
+} crease_region_type;
+
+/** What one region is. */
+typedef struct crease_region {
+    crease_region_type type;
+    double parameters[8];   /**< see the type; unused ones are 0 */
+    size_t parameter_count; /**< how many of them are used */
+    size_t point_count;     /**< points with this label */
+    double rms;             /**< root mean square distance of these points from the surface */
+    double chi; /**< mean squared distance over the squared noise, each cut at 9: about 1
+                     when the surface explains the points */
+} crease_region;
+
+typedef struct crease_regions_options {
+    double sigma;        /**< noise along the normal, when it is known; default 0: estimated */
+    size_t least_points; /**< no region has fewer points than this, 8 or more; default 8 */
+} crease_regions_options;
+
+CREASE_API crease_regions_options crease_regions_options_default(void);
+/** Finds the smooth regions: grown from smooth interiors, merged where one surface explains both,
+ * and bounded where the points' distances from the surfaces say so. Deterministic. O(n log n) for
+ * a fixed number of regions. Errors: ARGUMENT, TOO_FEW_POINTS (below 8), DEGENERATE (all points
+ * equal or on one line), NO_MEMORY, CANCELLED. */
+CREASE_API crease_status crease_regions_find(crease_context *context, const crease_cloud *cloud,
+    const crease_regions_options *options, crease_regions **out);
+CREASE_API void crease_regions_free(crease_regions *regions);
+/** Number of points. */
+CREASE_API size_t crease_regions_point_count(const crease_regions *regions);
+/** Number of regions. */
+CREASE_API size_t crease_regions_count(const crease_regions *regions);
+/** For every point the number of its region, or -1 for outliers. */
+CREASE_API const int32_t *crease_regions_labels(const crease_regions *regions);
+/** Unit normals of the points, count x 3: see crease_noise_normals(). */
+CREASE_API const double *crease_regions_normals(const crease_regions *regions);
+/** Spacing and noise that the regions were found with. */
+CREASE_API double crease_regions_spacing(const crease_regions *regions);
+CREASE_API double crease_regions_sigma(const crease_regions *regions);
+/** Region number index, below the count. */
+CREASE_API crease_region crease_regions_at(const crease_regions *regions, size_t index);
+/** Signed distance of a place from the surface of a region, extended beyond its points, and its
+ * unit gradient there. Free forms: to first order. */
+CREASE_API double crease_regions_distance(
+    const crease_regions *regions, size_t index, const double place[3], double gradient[3]);
 
 /* ----------------------------------------------------------------------------------- splines -- */
 

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* The smooth regions of a cloud. Internal view, for the stage that finds the creases between them.
+ *
+ * Points are kept in Morton order ("position"), so that neighbours are near in memory and the
+ * result does not depend on the order of the file; `order` leads back to the index in the cloud.
+ * Everything below is by position, except what is said to be by index. */
+#ifndef CREASE_SEGMENT_REGION_H
+#define CREASE_SEGMENT_REGION_H
+
+#include "cloud/noise.h"
+#include "segment/model.h"
+#include "space/neighbours.h"
+
+enum { CREASE_NO_REGION = -1 };
+
+struct crease_regions {
+    size_t count;                  /* points */
+    double *points;                /* count x 3 */
+    uint32_t *order;               /* index in the cloud */
+    crease_neighbours *neighbours; /* CREASE_NOISE_NEIGHBOURS of each point (fewer in tiny clouds),
+                                      the point itself first; as positions */
+    crease_noise *noise;           /* spacing, normals, scores; its sigma is the first estimate */
+    double sigma;                  /* noise by the residuals inside regions, at least 0.03 s */
+    int32_t *labels;               /* number of the region, or CREASE_NO_REGION */
+    size_t region_count;
+    crease_model *models;     /* region_count */
+    size_t *sizes;            /* points of each region */
+    double *rms;              /* of the distances of a region's points from its model */
+    int32_t *labels_by_index; /* what the public accessors return */
+    double *normals_by_index;
+};
+
+#endif
