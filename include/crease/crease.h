@@ -591,8 +591,8 @@ CREASE_API crease_status crease_scene_add_curves(crease_context *context, crease
 
 typedef struct crease_figure_options {
     int width, height;     /**< pixels (PNG) or points (SVG, PDF); default 1200 x 900 */
-    double azimuth;        /**< of the eye around z, degrees; default -60 */
-    double elevation;      /**< of the eye above the x-y plane, degrees; default 25 */
+    double azimuth;        /**< of the eye around z, degrees; default -65 */
+    double elevation;      /**< of the eye above the x-y plane, degrees; default 35 */
     const char *colour_by; /**< field that colours the points, or NULL: the paper's green */
     bool axes;             /**< draw the box with numbered axes; default true */
 } crease_figure_options;

@@ -21,7 +21,7 @@ static const char *const extensions[] = {"png", "svg", "pdf"};
 crease_figure_options crease_figure_options_default(void)
 {
     return (crease_figure_options){
-        .width = 1200, .height = 900, .azimuth = -60, .elevation = 25, .axes = true};
+        .width = 1200, .height = 900, .azimuth = -65, .elevation = 35, .axes = true};
 }
 
 /* ------------------------------------------------------------------------------- the file -- */

@@ -15,7 +15,7 @@
 #include <string.h>
 
 /* More dots than this become part of the picture instead of one drawn circle each. */
-enum { DRAWN_DOTS_MOST = 6000, PICTURE_SAMPLES = 3, SHORT_TEXT = 200 };
+enum { DRAWN_DOTS_MOST = 6000, PICTURE_SAMPLES = 3, SHORT_TEXT = 200, SHADES = 512 };
 static const double FONT = 21, MARGIN = 18; /* in 1/1200 of a panel's width */
 
 /* All that the steps of drawing one panel share. */
@@ -250,18 +250,43 @@ static crease_field field_of(const drawing *d, const crease_layer *layer)
     return colouring_field(layer, d->coloured ? d->panel->options.colour_by : NULL);
 }
 
+/* Colours of a range looked up in steps, because a large cloud asks for very many. */
+typedef struct shades {
+    crease_colour steps[SHADES];
+    const crease_range *range;
+} shades;
+
+static shades shades_of(const crease_range *range)
+{
+    shades s = {.range = range};
+    for (int i = 0; i < SHADES; i++)
+        s.steps[i] = crease_map_at(range->map, i / (SHADES - 1.0));
+    return s;
+}
+
+static crease_colour shade_at(const shades *s, double value)
+{
+    if (!isfinite(value))
+        return crease_range_colour(s->range, value);
+    const double t = (value - s->range->lowest) / (s->range->highest - s->range->lowest);
+    return s->steps[lround((SHADES - 1) * fmin(1, fmax(0, t)))];
+}
+
 static void picture_cloud(const drawing *d, size_t index)
 {
     const crease_layer *layer = &d->panel->scene->layers[index];
     const crease_field field = field_of(d, layer);
     const crease_colour plain = crease_palette_of_layer(d->panel->scene, index);
+    const shades s = shades_of(&d->range);
     const double *points = crease_cloud_points(layer->cloud);
     const size_t count = crease_cloud_count(layer->cloud);
     const double radius = dot_radius(d, count);
     for (size_t i = 0; i < count; i++) {
         crease_spot spot = crease_camera_project(&d->canvas.camera, &points[3 * i]);
         spot.depth -= d->canvas.slack;
-        crease_raster_draw_dot(d->canvas.raster, spot, radius, dot_colour(d, &field, plain, i));
+        const crease_colour colour =
+            field.name ? shade_at(&s, crease_field_value(&field, i)) : plain;
+        crease_raster_draw_dot(d->canvas.raster, spot, radius, colour);
     }
 }
 
