@@ -312,6 +312,7 @@ static crease_status draw_picture(drawing *d, const crease_area *room)
                 crease_palette_of_layer(scene, i));
         else if (scene->layers[i].cloud && !is_drawn(&scene->layers[i]))
             picture_cloud(d, i);
+    crease_raster_shade_dots(d->canvas.raster, d->coloured ? 0.75 : 0.45);
     return crease_raster_paint(d->canvas.context, d->canvas.raster, d->canvas.cairo);
 }
 

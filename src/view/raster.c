@@ -39,7 +39,8 @@ crease_status crease_raster_create(crease_context *context, double left, double 
     const size_t count = (size_t)columns_of(raster) * (size_t)rows_of(raster);
     raster->depths = crease_allocate(context, count, sizeof *raster->depths);
     raster->colours = crease_allocate(context, count, sizeof *raster->colours);
-    if (!raster->depths || !raster->colours) {
+    raster->dots = crease_allocate(context, count, sizeof *raster->dots);
+    if (!raster->depths || !raster->colours || !raster->dots) {
         crease_raster_free(raster);
         return CREASE_ERROR_NO_MEMORY;
     }
@@ -55,6 +56,7 @@ void crease_raster_free(crease_raster *raster)
         return;
     free(raster->depths);
     free(raster->colours);
+    free(raster->dots);
     free(raster);
 }
 
@@ -111,6 +113,7 @@ static void fill_sample(const brush *b, const vertex v[3], const double w[3], si
         normal[c] = w[0] * v[0].normal[c] + w[1] * v[1].normal[c] + w[2] * v[2].normal[c];
     b->raster->depths[at] = depth;
     b->raster->colours[at] = shade(b, normal);
+    b->raster->dots[at] = false;
 }
 
 static double lowest_of(double a, double b, double c)
@@ -201,6 +204,43 @@ void crease_raster_draw_dot(
                 continue;
             raster->depths[at] = front;
             raster->colours[at] = paint;
+            raster->dots[at] = true;
+        }
+}
+
+/* How far a sample lies behind those around it, in the mean, in units of the drawing. */
+static double depth_behind(const crease_raster *raster, int x, int y)
+{
+    const int reach = raster->samples, columns = columns_of(raster), rows = rows_of(raster);
+    const float own = raster->depths[(size_t)y * (size_t)columns + (size_t)x];
+    double sum = 0;
+    for (int j = -reach; j <= reach; j += reach)
+        for (int i = -reach; i <= reach; i += reach) {
+            if (x + i < 0 || x + i >= columns || y + j < 0 || y + j >= rows)
+                continue;
+            const float other = raster->depths[(size_t)(y + j) * (size_t)columns + (size_t)(x + i)];
+            sum += fmax(0, (double)(own - other));
+        }
+    return sum / 8;
+}
+
+static uint32_t darken(uint32_t colour, double factor)
+{
+    uint32_t out = colour & 0xFF000000U;
+    for (int c = 0; c < 24; c += 8)
+        out |= (uint32_t)lround(factor * (colour >> c & 0xFF)) << c;
+    return out;
+}
+
+void crease_raster_shade_dots(crease_raster *raster, double darkest)
+{
+    const double strength = 0.8 * (1 - darkest) * raster->density;
+    for (int y = 0; y < rows_of(raster); y++)
+        for (int x = 0; x < columns_of(raster); x++) {
+            const size_t at = (size_t)y * (size_t)columns_of(raster) + (size_t)x;
+            if (raster->dots[at])
+                raster->colours[at] = darken(raster->colours[at],
+                    fmax(darkest, exp(-strength * depth_behind(raster, x, y))));
         }
 }
 

@@ -19,6 +19,7 @@ typedef struct crease_raster {
     int samples;       /* per pixel, along x and along y */
     float *depths;     /* of every sample; infinite where nothing is */
     uint32_t *colours; /* of every sample, 0xAARRGGBB */
+    bool *dots;        /* true where the sample shows a dot */
 } crease_raster;
 
 /* A picture of width x height units of the drawing. Errors: NO_MEMORY. */
@@ -32,6 +33,11 @@ void crease_raster_draw_mesh(crease_raster *raster, const crease_mesh *mesh,
 /* Draws a dot; depth is that of its middle. */
 void crease_raster_draw_dot(
     crease_raster *raster, crease_spot middle, double radius, crease_colour colour);
+/* Darkens dots that lie behind their neighbours on the picture, once all are drawn: a cloud without
+ * normals then shows its shape. darkest: the least part of its brightness that a dot keeps, 0..1.
+ * Based on: Boucheny. Visualisation scientifique de grands volumes de donnees: pour une approche
+ * perceptive. 2009 (eye-dome lighting). */
+void crease_raster_shade_dots(crease_raster *raster, double darkest);
 /* True when nothing that was drawn lies in front of the spot by more than `slack`. */
 bool crease_raster_sees(const crease_raster *raster, crease_spot spot, double slack);
 /* Puts the picture onto the drawing. */

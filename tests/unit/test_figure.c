@@ -223,6 +223,33 @@ static void given_a_large_cloud_then_a_surface_hides_its_points_too(void **state
     crease_context_free(context);
 }
 
+static bool is_deep_green(int red, int green, int blue)
+{
+    return green > red + 30 && green < 110;
+}
+
+static void given_a_large_cloud_with_a_step_then_its_lower_side_is_darker_there(void **state)
+{
+    enum { COUNT = 90000 };
+    crease_context *context = given_context();
+    const crease_figure_options options = seen_from(-90, 90);
+    double *points = calloc(3 * COUNT, sizeof *points);
+    int deep[2];
+    for (int step = 0; step < 2; step++) {
+        for (int i = 0; i < COUNT; i++) {
+            points[3 * i] = i % 300 / 300.0;
+            points[3 * i + 1] = i / 300 / 300.0;
+            points[3 * i + 2] = step && i % 300 < 150 ? -0.2 : 0;
+        }
+        crease_scene *scene = given_points(context, points, COUNT);
+        deep[step] = draw(context, scene, &options, is_deep_green).count;
+        crease_scene_free(scene);
+    }
+    assert_true(deep[1] > deep[0] + 100);
+    free(points);
+    crease_context_free(context);
+}
+
 static void given_a_crease_behind_a_surface_then_only_its_free_part_is_dark(void **state)
 {
     crease_context *context = given_context();
@@ -536,6 +563,7 @@ int main(void)
         cmocka_unit_test(given_points_seen_from_the_front_then_they_lie_where_they_should),
         cmocka_unit_test(given_a_point_before_or_behind_a_surface_then_it_is_seen_or_hidden),
         cmocka_unit_test(given_a_large_cloud_then_a_surface_hides_its_points_too),
+        cmocka_unit_test(given_a_large_cloud_with_a_step_then_its_lower_side_is_darker_there),
         cmocka_unit_test(given_a_crease_behind_a_surface_then_only_its_free_part_is_dark),
         cmocka_unit_test(given_a_surface_then_it_is_shaded_without_holes),
         cmocka_unit_test(given_a_field_then_its_values_colour_the_points),
