@@ -200,7 +200,8 @@ void crease_raster_draw_dot(
     for (int j = w.y0; j < w.y1; j++)
         for (int i = w.x0; i < w.x1; i++) {
             const size_t at = (size_t)j * (size_t)columns_of(raster) + (size_t)i;
-            if (hypot(i + 0.5 - x, j + 0.5 - y) > r || front >= raster->depths[at])
+            const double dx = i + 0.5 - x, dy = j + 0.5 - y;
+            if (dx * dx + dy * dy > r * r || front >= raster->depths[at])
                 continue;
             raster->depths[at] = front;
             raster->colours[at] = paint;

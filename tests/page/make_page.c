@@ -23,8 +23,8 @@ static crease_status add_points(crease_context *context, crease_scene *scene)
     }
     for (int i = 0; i < POINTS; i++)
         heights[i] = points[3 * i + 2];
-    const crease_field fields[] = {{"variance", CREASE_TYPE_FLOAT64, variances},
-        {"height <b>", CREASE_TYPE_FLOAT64, heights}};
+    const crease_field fields[] = {
+        {"variance", CREASE_TYPE_FLOAT64, variances}, {"height <b>", CREASE_TYPE_FLOAT64, heights}};
     const crease_cloud_parts parts = {
         .count = POINTS, .points = points, .fields = fields, .field_count = 2};
     crease_cloud *cloud = NULL;

@@ -544,7 +544,7 @@ static void given_any_allocation_that_fails_then_the_scene_stays_as_it_was(void 
 }
 
 /* Fontconfig keeps one block of its configuration for good; the leak checker is told so. */
-const char *__lsan_default_suppressions(void);
+CREASE_API const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
     return "leak:libfontconfig";
