@@ -46,7 +46,7 @@ function choose(scene, stage, panel, found) {
   panel.showPicked([
     [layer.name || 'points', `no. ${count(index)}`],
     ...position.map((value, c) => ['xyz'[c], short(value, 15)]),
-    ...layer.fields.map((field) => [field.name, short(field.values[index], 6)]),
+    ...layer.fields.map((field) => [field.name, short(field.values[index], field.type === 'float32' ? 6 : 15)]),
   ]);
 }
 

@@ -13,7 +13,7 @@ import { ringOf } from './layers.js';
 
 /** Where the eye stands, seen from the centre. */
 export const views = {
-  home: [0.45, -0.78, 0.43],
+  home: [0.346, -0.742, 0.574],
   '+x': [1, 0, 0],
   '\u2212x': [-1, 0, 0],
   '+y': [0, 1, 0],
