@@ -351,6 +351,14 @@ static crease_scene *given_everything(crease_context *context)
     return scene;
 }
 
+static bool contains(const char *bytes, size_t size, const char *word)
+{
+    for (size_t i = 0; i + strlen(word) <= size; i++)
+        if (memcmp(bytes + i, word, strlen(word)) == 0)
+            return true;
+    return false;
+}
+
 static void given_the_same_scene_then_every_format_has_the_same_bytes(void **state)
 {
     static const char *const extensions[] = {"png", "svg", "PDF"};
@@ -375,6 +383,8 @@ static void given_the_same_scene_then_every_format_has_the_same_bytes(void **sta
         assert_int_equal(strncmp(bytes[0], begins[format], strlen(begins[format])), 0);
         assert_int_equal(sizes[0], sizes[1]);
         assert_memory_equal(bytes[0], bytes[1], sizes[0]);
+        if (format == 2)
+            assert_true(contains(bytes[0], sizes[0], "/CreationDate (20000101000000"));
         free(bytes[0]);
         free(bytes[1]);
     }
