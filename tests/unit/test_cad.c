@@ -3,181 +3,10 @@
 
 #define _XOPEN_SOURCE 700 /* mkdtemp, nftw */
 
-#include "given.h"
+#include "given_cad.h"
 
-#include "crease/crease_cad.h"
-
-#include <fcntl.h>
-#include <ftw.h>
 #include <pthread.h>
 #include <sys/stat.h>
-#include <unistd.h>
-
-enum { MOST = 16 };
-
-static char folder[] = "/tmp/crease-cad-XXXXXX";
-
-/* ------------------------------------------------------------------------------------- given -- */
-
-typedef struct model {
-    crease_context *context;
-    crease_surface *surfaces[MOST];
-    size_t count;
-} model;
-
-static model given_model(void)
-{
-    return (model){.context = given_context()};
-}
-
-static void free_model(model *m)
-{
-    for (size_t i = 0; i < m->count; i++)
-        crease_surface_free(m->surfaces[i]);
-    crease_context_free(m->context);
-}
-
-static const char *in_folder(const char *name)
-{
-    static _Thread_local char path[4][256];
-    static _Thread_local int turn = 0;
-    turn = (turn + 1) % 4;
-    snprintf(path[turn], sizeof path[turn], "%s/%s", folder, name);
-    return path[turn];
-}
-
-static void add_surface(model *m, const crease_surface_parts *parts)
-{
-    assert_true(m->count < MOST);
-    assert_int_equal(crease_surface_create(m->context, parts, &m->surfaces[m->count++]), CREASE_OK);
-}
-
-static void clamped_knots(int order, size_t count, double *knots)
-{
-    const size_t inner = count - (size_t)order;
-    for (size_t i = 0; i < count + (size_t)order; i++) {
-        const double t = ((double)i - order + 1) / ((double)inner + 1);
-        knots[i] = fmin(fmax(t, 0.0), 1.0);
-    }
-}
-
-static double greville(const double *knots, int order, size_t i)
-{
-    double sum = 0;
-    for (int k = 1; k < order; k++)
-        sum += knots[i + (size_t)k];
-    return sum / (order - 1);
-}
-
-/* A place in space for a place in the unit square. */
-typedef void shape_of(double u, double v, double out[3]);
-
-/* A bicubic surface over given knots whose control points are the shape at the Greville places:
- * the shape itself where that is bilinear. */
-static void add_over_knots(model *m, const double *u, size_t rows, const double *v, size_t columns,
-    const double frame[12], shape_of *shape)
-{
-    double points[3 * 256];
-    assert_true(rows * columns <= 256);
-    for (size_t i = 0; i < rows; i++)
-        for (size_t j = 0; j < columns; j++) {
-            double at[3], *out = points + 3 * (i * columns + j);
-            shape(greville(u, 4, i), greville(v, 4, j), at);
-            for (int c = 0; c < 3; c++)
-                out[c] =
-                    frame[9 + c] + frame[c] * at[0] + frame[3 + c] * at[1] + frame[6 + c] * at[2];
-        }
-    add_surface(m, &(crease_surface_parts){{4, 4}, {rows, columns}, {u, v}, points});
-}
-
-static void flat(double u, double v, double out[3])
-{
-    out[0] = u;
-    out[1] = v;
-    out[2] = 0;
-}
-
-static void bump(double u, double v, double out[3])
-{
-    flat(u, v, out);
-    out[2] = 0.3 * sin(3 * u) * cos(2 * v);
-}
-
-/* frame: images of x, y, z, then the origin. */
-static void add_shaped(
-    model *m, size_t rows, size_t columns, const double frame[12], shape_of *shape)
-{
-    double u[32], v[32];
-    clamped_knots(4, rows, u);
-    clamped_knots(4, columns, v);
-    add_over_knots(m, u, rows, v, columns, frame, shape);
-}
-
-static const double IDENTITY[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-
-/* Two planes at a right angle that meet along y; the second one runs as `turned` says: bit 0
- * reverses the common border, bit 1 puts the border on the other side. */
-static void add_wedge(model *m, double size, const double origin[3], int turned)
-{
-    const double s = size, *o = origin;
-    add_shaped(m, 5, 4, (double[]){s, 0, 0, 0, s, 0, 0, 0, s, o[0], o[1], o[2]}, flat);
-    const double y = turned & 1 ? -s : s, y0 = turned & 1 ? s : 0;
-    const double z = turned & 2 ? -s : s, z0 = turned & 2 ? s : 0;
-    add_shaped(m, 6, 4, (double[]){0, 0, z, 0, y, 0, 1, 0, 0, o[0], o[1] + y0, o[2] + z0}, flat);
-}
-
-static void add_box(model *m, double size, const double origin[3])
-{
-    for (int axis = 0; axis < 3; axis++)
-        for (int side = 0; side < 2; side++) {
-            double frame[12] = {0};
-            frame[(axis + 1) % 3] = size;
-            frame[3 + (axis + 2) % 3] = size;
-            frame[6 + axis] = size;
-            for (int c = 0; c < 3; c++)
-                frame[9 + c] = origin[c] + (c == axis && side ? size : 0);
-            add_shaped(m, 4 + (size_t)axis % 2, 4 + (size_t)axis % 2, frame, flat);
-        }
-}
-
-/* -------------------------------------------------------------------------------------- when -- */
-
-static void when_written(model *m, const char *path)
-{
-    const crease_status status =
-        crease_cad_write(m->context, (const crease_surface *const *)m->surfaces, m->count, path);
-    if (status != CREASE_OK)
-        fail_msg("%d: %s", (int)status, crease_context_message(m->context));
-}
-
-static crease_cad_info when_read(model *m, const char *path)
-{
-    crease_cad_info info;
-    const crease_status status = crease_cad_info_read(m->context, path, &info);
-    if (status != CREASE_OK)
-        fail_msg("%d: %s", (int)status, crease_context_message(m->context));
-    return info;
-}
-
-static crease_cad_info when_written_and_read(model *m, const char *name)
-{
-    when_written(m, in_folder(name));
-    return when_read(m, in_folder(name));
-}
-
-/* -------------------------------------------------------------------------------------- then -- */
-
-static void then_counts_are(const crease_cad_info *info, size_t solids, size_t faces, size_t edges,
-    size_t vertices, size_t free_edges, size_t sharp_edges)
-{
-    assert_true(info->valid);
-    assert_int_equal(info->solids, solids);
-    assert_int_equal(info->faces, faces);
-    assert_int_equal(info->edges, edges);
-    assert_int_equal(info->vertices, vertices);
-    assert_int_equal(info->free_edges, free_edges);
-    assert_int_equal(info->sharp_edges, sharp_edges);
-}
 
 static void given_one_patch_then_one_face_stands_in_the_file(void **state)
 {
@@ -277,25 +106,6 @@ static void given_a_knot_of_full_multiplicity_then_the_surface_is_cut_there(void
     }
 }
 
-/* A roof whose ridge row stands three times over uniform knots that are not clamped: the averaging
- * method's result. Its rows lie at x = i, z = -|x - ridge|. */
-static void add_repeated_rows(model *m, int direction, double scale)
-{
-    double knots[2][16], points[9 * 6 * 3];
-    for (int i = 0; i < 16; i++)
-        knots[0][i] = knots[1][i] = 10 + 0.5 * i;
-    for (size_t i = 0; i < 9; i++)
-        for (size_t j = 0; j < 6; j++) {
-            double *p = points + 3 * (direction == 0 ? i * 6 + j : j * 9 + i);
-            const double row = i < 3 ? (double)i : (i < 6 ? 3.0 : (double)i - 2);
-            p[0] = scale * row;
-            p[1] = scale * (double)j;
-            p[2] = -scale * fabs(row - 3.0);
-        }
-    const size_t rows = direction == 0 ? 9 : 6, columns = direction == 0 ? 6 : 9;
-    add_surface(m, &(crease_surface_parts){{4, 4}, {rows, columns}, {knots[0], knots[1]}, points});
-}
-
 static void given_a_row_three_times_then_the_surface_is_cut_there(void **state)
 {
     static const char *const names[] = {"rows.step", "rows.igs", "rows.brep"};
@@ -347,25 +157,6 @@ static void given_a_fold_without_area_then_it_is_left_out(void **state)
     const crease_cad_info info = when_written_and_read(&m, "fold.step");
     then_counts_are(&info, 0, 2, 7, 6, 6, 1);
     free_model(&m);
-}
-
-/* A tube around the z axis, closed in u; its radius falls to zero at the ends that `tip` names. */
-static void add_tube(model *m, int tips)
-{
-    enum { ROUND = 8 };
-    double u[16], v[8], points[12 * 4 * 3];
-    clamped_knots(4, 12, u);
-    clamped_knots(4, 4, v);
-    for (size_t i = 0; i < 12; i++)
-        for (size_t j = 0; j < 4; j++) {
-            const double angle = 2 * acos(-1.0) * greville(u, 4, i % 11);
-            const bool tip = (j == 0 && tips & 1) || (j == 3 && tips & 2);
-            const double radius = tip ? 0.0 : 1.0;
-            memcpy(points + 3 * (i * 4 + j),
-                (double[]){radius * cos(angle), radius * sin(angle), (double)j / 3},
-                3 * sizeof(double));
-        }
-    add_surface(m, &(crease_surface_parts){{4, 4}, {12, 4}, {u, v}, points});
 }
 
 static void given_a_closed_tube_then_it_has_a_seam(void **state)
@@ -462,19 +253,6 @@ static void given_any_size_and_place_then_the_model_is_valid_and_closed(void **s
             then_counts_are(&info, 0, 2, 7, 6, 6, 1);
             free_model(&m);
         }
-}
-
-static size_t read_bytes(const char *path, char **bytes)
-{
-    FILE *file = fopen(path, "rb");
-    assert_non_null(file);
-    fseek(file, 0, SEEK_END);
-    const size_t size = (size_t)ftell(file);
-    rewind(file);
-    *bytes = malloc(size + 1);
-    assert_int_equal(fread(*bytes, 1, size, file), size);
-    fclose(file);
-    return size;
 }
 
 static void then_bytes_are_equal(const char *one, const char *other)
@@ -626,110 +404,6 @@ static void given_two_threads_with_a_context_each_then_both_are_served(void **st
     assert_int_equal(pthread_join(other, NULL), 0);
 }
 
-/* Sends what the process prints to a file while the work is done; returns its size. */
-static long printed_by(void (*work)(void))
-{
-    fflush(NULL);
-    const int out = dup(1), err = dup(2);
-    const int file = open(in_folder("printed"), O_CREAT | O_RDWR | O_TRUNC, 0666);
-    dup2(file, 1);
-    dup2(file, 2);
-    work();
-    fflush(NULL);
-    dup2(out, 1);
-    dup2(err, 2);
-    const long size = (long)lseek(file, 0, SEEK_END);
-    close(file);
-    close(out);
-    close(err);
-    return size;
-}
-
-static void write_bytes(const char *path, const char *bytes, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_int_equal(fwrite(bytes, 1, size, file), size);
-    fclose(file);
-}
-
-/* Reads beginnings of a file, and the file with bytes changed: no crash, and never silence about
- * what is missing. */
-static void read_spoiled(void)
-{
-    static const char *const names[] = {"spoil.step", "spoil.igs", "spoil.brep"};
-    model m = given_model();
-    add_wedge(&m, 1.0, (double[]){0, 0, 0}, 0);
-    crease_cad_info info;
-    for (int k = 0; k < 3; k++) {
-        const char *path = in_folder(names[k]);
-        when_written(&m, path);
-        char *bytes = NULL;
-        const size_t size = read_bytes(path, &bytes);
-        for (size_t part = 0; part < 6; part++) {
-            write_bytes(path, bytes, size * part / 6);
-            const crease_status status = crease_cad_info_read(m.context, path, &info);
-            assert_int_equal(crease_status_kind(status), CREASE_KIND_INPUT);
-            assert_non_null(strstr(crease_context_message(m.context), path));
-        }
-        for (size_t i = 0; i < 8; i++) {
-            const size_t at = size / 4 + i * (size / 2) / 8;
-            const char old = bytes[at];
-            bytes[at] = (char)("9,(#'.;\n"[i]);
-            write_bytes(path, bytes, size);
-            (void)crease_cad_info_read(m.context, path, &info);
-            bytes[at] = old;
-        }
-        free(bytes);
-    }
-    free_model(&m);
-}
-
-static void given_spoiled_files_then_sentences_come_and_nothing_is_printed(void **state)
-{
-    assert_int_equal(printed_by(read_spoiled), 0);
-}
-
-static void then_reading_fails(const char *path, crease_status expected, const char *word)
-{
-    crease_context *context = given_context();
-    crease_cad_info info;
-    assert_int_equal(crease_cad_info_read(context, path, &info), expected);
-    assert_int_equal(info.faces, 0);
-    if (!strstr(crease_context_message(context), word))
-        fail_msg("\"%s\" lacks \"%s\"", crease_context_message(context), word);
-    crease_context_free(context);
-}
-
-static void given_no_cad_file_then_a_sentence_says_so(void **state)
-{
-    then_reading_fails(in_folder("none.step"), CREASE_ERROR_NO_SUCH_FILE, "no such file");
-    then_reading_fails(folder, CREASE_ERROR_CANNOT_READ, "directory");
-    write_bytes(in_folder("text.step"), "hello\n", 6);
-    then_reading_fails(in_folder("text.step"), CREASE_ERROR_FORMAT, "no CAD file");
-    write_bytes(in_folder("text.txt"), "1 2 3\n", 6);
-    then_reading_fails(in_folder("text.txt"), CREASE_ERROR_FORMAT, "no CAD file");
-    static const char empty[] =
-        "ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n";
-    write_bytes(in_folder("empty.step"), empty, sizeof empty - 1);
-    then_reading_fails(in_folder("empty.step"), CREASE_ERROR_FORMAT, "");
-}
-
-static int remove_one(const char *path, const struct stat *info, int kind, struct FTW *walk)
-{
-    return remove(path);
-}
-
-static int make_folder(void **state)
-{
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    return nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -755,8 +429,6 @@ int main(void)
         cmocka_unit_test(given_a_band_with_one_side_then_a_sentence_says_so),
         cmocka_unit_test(given_memory_that_runs_out_then_every_failure_is_told),
         cmocka_unit_test(given_two_threads_with_a_context_each_then_both_are_served),
-        cmocka_unit_test(given_spoiled_files_then_sentences_come_and_nothing_is_printed),
-        cmocka_unit_test(given_no_cad_file_then_a_sentence_says_so),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
