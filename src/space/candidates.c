@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* Selection without unforeseeable branches, in loops that vectorise: all distances; a limit that
+ * somewhat more than k of them pass, found by counting; those that pass, each put at its rank,
+ * which is the number of others that come before it. */
+#include "space/candidates.h"
+
+#include "base/simd.h"
+
+#include <string.h>
+
+typedef struct selection {
+    size_t count;
+    double distance[CREASE_MOST_SELECTED], index[CREASE_MOST_SELECTED];
+    double rank[CREASE_MOST_SELECTED];
+    uint32_t position[CREASE_MOST_SELECTED];
+} selection;
+
+bool crease_candidates_add(crease_candidates *candidates, const crease_tree *tree, uint32_t begin,
+    uint32_t end, const double place[3], double limit)
+{
+    size_t count = candidates->count;
+    if (count + (end - begin) > CREASE_MOST_CANDIDATES)
+        return false;
+    for (uint32_t i = begin; i < end; i++) {
+        const double dx = tree->x[i] - place[0];
+        const double dy = tree->y[i] - place[1];
+        const double dz = tree->z[i] - place[2];
+        candidates->x[count] = tree->x[i];
+        candidates->y[count] = tree->y[i];
+        candidates->z[count] = tree->z[i];
+        candidates->index[count] = tree->index[i];
+        candidates->position[count] = i;
+        count += dx * dx + dy * dy + dz * dz <= limit;
+    }
+    candidates->count = count;
+    return true;
+}
+
+CREASE_INLINE void measure(
+    crease_candidates *restrict candidates, const double *restrict place, size_t self)
+{
+    const double x = place[0], y = place[1], z = place[2];
+    for (size_t i = 0; i < candidates->count; i++) {
+        const double dx = candidates->x[i] - x;
+        const double dy = candidates->y[i] - y;
+        const double dz = candidates->z[i] - z;
+        candidates->distance[i] = dx * dx + dy * dy + dz * dz;
+    }
+    candidates->distance[self] = -1; /* before all others */
+}
+
+CREASE_INLINE double count_within(const crease_candidates *candidates, double limit)
+{
+    const double *const distance = candidates->distance;
+    double lanes[8] = {0};
+    size_t i = 0;
+    for (; i + 8 <= candidates->count; i += 8)
+        for (size_t j = 0; j < 8; j++)
+            lanes[j] += distance[i + j] <= limit ? 1 : 0;
+    double sum = 0;
+    for (; i < candidates->count; i++)
+        sum += distance[i] <= limit ? 1 : 0;
+    for (size_t j = 0; j < 8; j++)
+        sum += lanes[j];
+    return sum;
+}
+
+/* A limit that k points pass, and not many more if it can be helped: on a surface the number of
+ * points grows with the squared distance. */
+CREASE_INLINE double find_limit(const crease_candidates *candidates, const crease_request *request)
+{
+    const double k = request->k, most = 1.5 * k + 4, aim = 1.2 * k + 2;
+    double limit = request->guess < request->bound ? request->guess : request->bound;
+    for (int attempt = 0; attempt < 4; attempt++) {
+        const double count = count_within(candidates, limit);
+        if (count >= k && (count <= most || attempt > 1))
+            return limit;
+        limit *= aim / count;
+        if (!(limit < request->bound))
+            return request->bound;
+    }
+    return request->bound;
+}
+
+CREASE_INLINE bool select_within(
+    const crease_candidates *candidates, double limit, selection *chosen)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < candidates->count; i++) {
+        chosen->distance[count] = candidates->distance[i];
+        chosen->index[count] = candidates->index[i];
+        chosen->position[count] = candidates->position[i];
+        count += candidates->distance[i] <= limit;
+        if (count == CREASE_MOST_SELECTED)
+            return false;
+    }
+    chosen->count = count;
+    return true;
+}
+
+CREASE_INLINE void find_ranks(selection *restrict chosen)
+{
+    const size_t count = chosen->count;
+    for (size_t i = 0; i < count; i++)
+        chosen->rank[i] = 0;
+    for (size_t j = 0; j < count; j++) {
+        const double distance = chosen->distance[j], index = chosen->index[j];
+        for (size_t i = 0; i < count; i++) {
+            const double tie = index < chosen->index[i] ? 1 : 0;
+            const double equal = distance == chosen->distance[i] ? tie : 0;
+            chosen->rank[i] += distance < chosen->distance[i] ? 1 : equal;
+        }
+    }
+}
+
+CREASE_VECTORISED bool crease_candidates_nearest(crease_candidates *candidates,
+    const crease_request *request, uint32_t *positions, double *squared_distances)
+{
+    const size_t k = (size_t)request->k;
+    selection chosen;
+    measure(candidates, request->place, request->self);
+    if (!select_within(candidates, find_limit(candidates, request), &chosen) || chosen.count < k)
+        return false;
+    find_ranks(&chosen);
+    for (size_t i = 0; i < chosen.count; i++) {
+        const size_t rank = (size_t)chosen.rank[i];
+        if (rank < k) {
+            positions[rank] = chosen.position[i];
+            squared_distances[rank] = chosen.distance[i];
+        }
+    }
+    squared_distances[0] = 0;
+    return true;
+}
