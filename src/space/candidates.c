@@ -14,7 +14,7 @@ typedef struct selection {
     size_t count;
     double distance[CREASE_MOST_SELECTED], index[CREASE_MOST_SELECTED];
     double rank[CREASE_MOST_SELECTED];
-    uint32_t position[CREASE_MOST_SELECTED];
+    uint32_t number[CREASE_MOST_SELECTED]; /* of the candidate */
 } selection;
 
 bool crease_candidates_add(crease_candidates *candidates, const crease_tree *tree, uint32_t begin,
@@ -68,36 +68,35 @@ CREASE_INLINE double count_within(const crease_candidates *candidates, double li
 }
 
 /* A limit that k points pass, and not many more if it can be helped: on a surface the number of
- * points grows with the squared distance. */
-CREASE_INLINE double find_limit(const crease_candidates *candidates, const crease_request *request)
+ * points grows with the squared distance. *count is the number of those that pass. */
+CREASE_INLINE double find_limit(
+    const crease_candidates *candidates, const crease_request *request, double *count)
 {
     const double k = request->k, most = 1.5 * k + 4, aim = 1.2 * k + 2;
-    double limit = request->guess < request->bound ? request->guess : request->bound;
-    for (int attempt = 0; attempt < 4; attempt++) {
-        const double count = count_within(candidates, limit);
-        if (count >= k && (count <= most || attempt > 1))
+    double limit = request->guess;
+    for (int attempt = 0; attempt < 4 && limit < request->bound; attempt++) {
+        *count = count_within(candidates, limit);
+        if (*count >= k && (*count <= most || attempt > 1))
             return limit;
-        limit *= aim / count;
-        if (!(limit < request->bound))
-            return request->bound;
+        limit *= aim / *count;
     }
+    *count = count_within(candidates, request->bound);
     return request->bound;
 }
 
-CREASE_INLINE bool select_within(
+CREASE_INLINE void select_within(
     const crease_candidates *candidates, double limit, selection *chosen)
 {
     size_t count = 0;
     for (size_t i = 0; i < candidates->count; i++) {
-        chosen->distance[count] = candidates->distance[i];
-        chosen->index[count] = candidates->index[i];
-        chosen->position[count] = candidates->position[i];
+        chosen->number[count] = (uint32_t)i;
         count += candidates->distance[i] <= limit;
-        if (count == CREASE_MOST_SELECTED)
-            return false;
+    }
+    for (size_t i = 0; i < count; i++) {
+        chosen->distance[i] = candidates->distance[chosen->number[i]];
+        chosen->index[i] = candidates->index[chosen->number[i]];
     }
     chosen->count = count;
-    return true;
 }
 
 CREASE_INLINE void find_ranks(selection *restrict chosen)
@@ -121,13 +120,16 @@ CREASE_VECTORISED bool crease_candidates_nearest(crease_candidates *candidates,
     const size_t k = (size_t)request->k;
     selection chosen;
     measure(candidates, request->place, request->self);
-    if (!select_within(candidates, find_limit(candidates, request), &chosen) || chosen.count < k)
+    double count = 0;
+    const double limit = find_limit(candidates, request, &count);
+    if (count < (double)k || count >= CREASE_MOST_SELECTED)
         return false;
+    select_within(candidates, limit, &chosen);
     find_ranks(&chosen);
     for (size_t i = 0; i < chosen.count; i++) {
         const size_t rank = (size_t)chosen.rank[i];
         if (rank < k) {
-            positions[rank] = chosen.position[i];
+            positions[rank] = candidates->position[chosen.number[i]];
             squared_distances[rank] = chosen.distance[i];
         }
     }

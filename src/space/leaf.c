@@ -36,12 +36,12 @@ static double above(double length)
     return length * (1 + 1e-9) + 1e-150;
 }
 
-static double distance(const crease_tree *tree, uint32_t position, const double place[3])
+static double squared_distance(const crease_tree *tree, uint32_t position, const double place[3])
 {
     const double dx = tree->x[position] - place[0];
     const double dy = tree->y[position] - place[1];
     const double dz = tree->z[position] - place[2];
-    return sqrt(dx * dx + dy * dy + dz * dz);
+    return dx * dx + dy * dy + dz * dz;
 }
 
 static uint32_t find_middle(const crease_tree *tree, const crease_node *leaf)
@@ -52,7 +52,7 @@ static uint32_t find_middle(const crease_tree *tree, const crease_node *leaf)
     uint32_t best = leaf->begin;
     double least = INFINITY;
     for (uint32_t i = leaf->begin; i < leaf->end; i++) {
-        const double away = distance(tree, i, middle);
+        const double away = squared_distance(tree, i, middle);
         best = away < least ? i : best;
         least = away < least ? away : least;
     }
@@ -106,9 +106,12 @@ static void look_up_middle(leaf_search *search, uint32_t *positions, double *squ
         tree, search->centre, search->middle, search->k, positions + row, squared_distances + row);
     search->reach = sqrt(squared_distances[row + k - 1]);
     double farthest = 0;
-    for (uint32_t i = search->leaf->begin; i < search->leaf->end; i++)
-        farthest = fmax(farthest, distance(tree, i, search->centre));
-    const double box = above(search->reach + farthest), ball = above(box + farthest);
+    for (uint32_t i = search->leaf->begin; i < search->leaf->end; i++) {
+        const double away = squared_distance(tree, i, search->centre);
+        farthest = away > farthest ? away : farthest;
+    }
+    const double box = above(search->reach + sqrt(farthest));
+    const double ball = above(box + sqrt(farthest));
     search->box_limit = box * box;
     search->limit = ball * ball;
 }
@@ -118,7 +121,8 @@ static bool search_candidates(
 {
     crease_request request = {.self = position - search->leaf->begin, .k = search->k};
     place_of(search->tree, position, request.place);
-    const double bound = above(search->reach + distance(search->tree, position, search->centre));
+    const double away = sqrt(squared_distance(search->tree, position, search->centre));
+    const double bound = above(search->reach + away);
     request.bound = bound * bound;
     request.guess = 1.1 * search->reach * search->reach;
     return crease_candidates_nearest(search->candidates, &request, positions, squared_distances);
