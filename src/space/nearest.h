@@ -7,7 +7,7 @@
 
 #include "space/kdtree.h"
 
-enum { CREASE_NO_POSITION = UINT32_MAX };
+#define CREASE_NO_POSITION UINT32_MAX
 
 /* self: the position of a point that is to come first whatever its equals are, with the place being
  * its own, or CREASE_NO_POSITION. Results: k elements each, nearest first, ties by index. */
