@@ -34,10 +34,10 @@ int main(int count, char **arguments)
     for (size_t points = 100000; points <= most; points *= 10) {
         double *coordinates = bench_points(context, points, false);
         crease_cloud *cloud = coordinates ? bench_cloud(context, coordinates, points) : NULL;
-        free(coordinates);
         for (int threads = 2; threads >= 1 && cloud; threads--)
             measure(cloud, threads);
         crease_cloud_free(cloud);
+        free(coordinates);
     }
     crease_context_free(context);
     return 0;
