@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_POINTS = 4096, NEAREST = 5, CANDIDATES = 3 };
+enum { MOST_POINTS = 2048, NEAREST = 5, CANDIDATES = 3 };
 
 /* Fills the rotation's rows from z and a direction across the edge; fixes all signs. */
 static void set_axes(crease_frame *frame, const double z[3], const double across[3])

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { GUESSES = 4, ROUNDS = 60 };
+enum { DIRECTIONS = 4, OFFSETS = 3, ROUNDS = 80 };
 
 static const double LEAST_SINE = 0.0871557427476582; /* of 5 degrees */
 static const double LEAST_GAIN = 0.5; /* of the mean distance, two planes against one */
@@ -20,7 +20,9 @@ typedef struct work {
     const double *points;
     size_t count;
     double *share[2], *nearest, *sorted;
-    double least; /* below this a distance is rounding */
+    double narrowest; /* spread across the narrower of the two sets of points, squared */
+    double least;     /* below this a distance is rounding */
+    double spacing;   /* a fraction of that of the points */
 } work;
 
 static double distance(const double normal[3], const double centre[3], const double *p)
@@ -29,19 +31,22 @@ static double distance(const double normal[3], const double centre[3], const dou
     return fabs(crease_vector_dot(d, normal));
 }
 
-static double median_of_nearest(work *w)
+/* Two thirds of the points are nearer: one face may hold more than half of them. */
+static double quantile_of_nearest(work *w)
 {
     memcpy(w->sorted, w->nearest, w->count * sizeof *w->sorted);
-    return crease_select(w->sorted, w->count, w->count / 2);
+    return crease_select(w->sorted, w->count, (size_t)(0.65 * (double)w->count));
 }
 
-/* Shares that pass from one plane to the other across the middle, in a direction. */
-static void guess(work *w, const double mean[3], const double direction[3], double width)
+/* Shares that pass from one plane to the other at an offset from the mean, in a direction. Lengths
+ * in standard deviations of the points in that direction. */
+static void guess(
+    work *w, const double mean[3], const double direction[3], double deviation, double offset)
 {
     for (size_t i = 0; i < w->count; i++) {
         const double *const p = w->points + 3 * i;
         const double d[3] = {p[0] - mean[0], p[1] - mean[1], p[2] - mean[2]};
-        const double t = 0.5 + crease_vector_dot(d, direction) / width;
+        const double t = 0.5 + (crease_vector_dot(d, direction) / deviation - offset) / 1.2;
         w->share[1][i] = fmin(1.0, fmax(0.0, t));
         w->share[0][i] = 1.0 - w->share[1][i];
     }
@@ -49,10 +54,12 @@ static void guess(work *w, const double mean[3], const double direction[3], doub
 
 static void fit_planes(work *w, crease_twoplane *planes)
 {
+    w->narrowest = INFINITY;
     for (int k = 0; k < 2; k++) {
         double values[3], axes[9];
         crease_vector_main_axes(w->points, w->share[k], w->count, planes->centre[k], values, axes);
         memcpy(planes->normal[k], axes, sizeof planes->normal[k]);
+        w->narrowest = fmin(w->narrowest, values[1]);
     }
     for (size_t i = 0; i < w->count; i++) {
         const double *const p = w->points + 3 * i;
@@ -61,15 +68,23 @@ static void fit_planes(work *w, crease_twoplane *planes)
     }
 }
 
-/* The share of a plane in a point: the likelihood among the two, less for far points (Cauchy). */
+static double odds_against(double own, double other)
+{
+    return exp(fmin(700.0, 0.5 * (own * own - other * other)));
+}
+
+/* The share of a plane in a point: the likelihood among the two, less for far points (Cauchy).
+ * Points about as near to both planes as points are to each other count for both, so that those of
+ * the edge itself hold both planes in place. */
 static void share_out(work *w, const crease_twoplane *planes, double scale)
 {
+    const double undecided = fmax(1.0, w->spacing / scale);
     for (size_t i = 0; i < w->count; i++) {
         double r[2];
         for (int k = 0; k < 2; k++)
             r[k] = distance(planes->normal[k], planes->centre[k], w->points + 3 * i) / scale;
         for (int k = 0; k < 2; k++) {
-            const double odds = exp(fmin(700.0, 0.5 * (r[k] * r[k] - r[1 - k] * r[1 - k])));
+            const double odds = odds_against(r[k] / undecided, r[1 - k] / undecided);
             w->share[k][i] = 1.0 / ((1.0 + odds) * (1.0 + r[k] * r[k] / 9.0));
         }
     }
@@ -83,18 +98,19 @@ static double mean_of_nearest(const work *w)
     return sum / (double)w->count;
 }
 
-/* Expectation and maximisation from the shares at hand; the mean distance reached. */
+/* Expectation and maximisation from the shares at hand; the mean distance reached. The scale of the
+ * distances shrinks slowly, so that no plane is given up early. */
 static double settle(work *w, crease_twoplane *planes)
 {
-    double before = INFINITY;
+    double before = INFINITY, scale = 0.0;
     for (int round = 0; round < ROUNDS; round++) {
         fit_planes(w, planes);
-        planes->spread = median_of_nearest(w);
         const double now = mean_of_nearest(w);
-        if (fabs(before - now) <= 1e-12 * now)
+        if (round > 20 && fabs(before - now) <= 1e-12 * now)
             break;
         before = now;
-        share_out(w, planes, fmax(w->least, 1.4826 * planes->spread));
+        scale = fmax(fmax(w->least, 0.7 * scale), 1.4826 * quantile_of_nearest(w));
+        share_out(w, planes, scale);
     }
     return mean_of_nearest(w);
 }
@@ -137,6 +153,21 @@ static double mean_distance_to_one(
     return sum / (double)count;
 }
 
+/* Number g of the guesses: four directions within the main plane, first across the middle, where
+ * the edge of an even sample is, then off it. */
+static void first_guess(
+    work *w, int g, const double mean[3], const double values[3], const double axes[9])
+{
+    static const double offsets[OFFSETS] = {0.0, -0.7, 0.7};
+    const double angle = 3.14159265358979324 / DIRECTIONS * (g % DIRECTIONS);
+    const double c = cos(angle), s = sin(angle);
+    double direction[3];
+    for (int i = 0; i < 3; i++)
+        direction[i] = c * axes[6 + i] + s * axes[3 + i];
+    const double variance = c * c * values[2] + s * s * values[1];
+    guess(w, mean, direction, fmax(w->least, sqrt(fmax(0.0, variance))), offsets[g / DIRECTIONS]);
+}
+
 bool crease_twoplane_fit(const double *points, size_t count, double *scratch, crease_twoplane *out)
 {
     double mean[3], values[3], axes[9];
@@ -147,18 +178,19 @@ bool crease_twoplane_fit(const double *points, size_t count, double *scratch, cr
         .share = {scratch, scratch + count},
         .nearest = scratch + 2 * count,
         .sorted = scratch + 3 * count,
-        .least = fmax(DBL_MIN, 1e-12 * extent)};
-    double best = INFINITY;
-    for (int g = 0; g < GUESSES; g++) {
-        const double angle = g * 0.78539816339744831;
-        double direction[3];
-        for (int c = 0; c < 3; c++)
-            direction[c] = cos(angle) * axes[6 + c] + sin(angle) * axes[3 + c];
-        guess(&w, mean, direction, 0.25 * extent);
+        .least = fmax(DBL_MIN, 1e-12 * extent),
+        .spacing = 0.08 * extent / sqrt((double)count)};
+    double best = INFINITY, widest = 4.0 * w.spacing * w.spacing;
+    const double same = 1e-9 * extent;
+    for (int g = 0; g < DIRECTIONS * OFFSETS; g++) {
         crease_twoplane planes;
+        first_guess(&w, g, mean, values, axes);
         const double reached = settle(&w, &planes);
-        if (reached < best) {
+        const bool nearer = reached + same < (g < DIRECTIONS ? 1.0 : LEAST_GAIN) * best;
+        const bool wider = reached < best + same && w.narrowest > 1.01 * widest;
+        if (w.narrowest > 4.0 * w.spacing * w.spacing && (nearer || wider)) {
             best = reached;
+            widest = w.narrowest;
             *out = planes;
         }
     }

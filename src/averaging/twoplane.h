@@ -14,7 +14,6 @@ typedef struct crease_twoplane {
     double direction[3]; /* unit vector along the edge */
     double edge[3];      /* point of the edge nearest to the mean of all points */
     double inward[2][3]; /* unit vectors across the edge, one into each face */
-    double spread;       /* median distance of the points to the nearer plane */
 } crease_twoplane;
 
 /* Fits two planes, robustly. False when one plane does as well, when the planes are nearly parallel

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* A sheet in the making: a frame, a layout of knots, and the height fitted over it. */
+#ifndef CREASE_FIT_DRAFT_H
+#define CREASE_FIT_DRAFT_H
+
+#include "fit/system.h"
+
+/* The weights of the bending term that are tried, from next to nothing to planes between creases.
+ */
+enum { CREASE_LAMBDAS = 9 };
+
+typedef struct crease_draft {
+    crease_samples *samples; /* not owned */
+    crease_frame frame;
+    crease_layout layout;
+    crease_height height;
+    crease_system system;
+    double fixed_lambda; /* negative: the best of those tried */
+    int lambda;          /* number of the one taken */
+    bool orthogonal;     /* minimise true distances, not vertical ones */
+    bool redescending;   /* forget outliers */
+    double mean;         /* mean distance of the points */
+    double freedom;      /* effective number of parameters */
+    double score;        /* to compare drafts: the lower, the better */
+} crease_draft;
+
+/* Puts the samples into the draft's frame, and the ends of the domain around them. */
+void crease_draft_place(crease_draft *draft);
+/* Fits the height to the samples as placed, robustly, in some rounds. The bending weight is the one
+ * with the lowest score; with `all` every one is tried, else those near the one last taken.
+ *
+ * The score is 2 n log(mean distance) + freedom log n: the Bayesian information criterion for
+ * errors of Laplace's distribution, which has wide tails.
+ * Based on: Schwarz. Estimating the dimension of a model. 1978.
+ * Errors: NUMERIC, NO_MEMORY, CANCELLED. */
+crease_status crease_draft_fit(crease_context *context, crease_draft *draft, int rounds, bool all);
+/* Frees what the draft owns. */
+void crease_draft_free(crease_draft *draft);
+/* The draft with another layout and frame, not fitted yet, otherwise alike. */
+crease_draft crease_draft_variant(
+    const crease_draft *draft, const crease_layout *layout, const crease_frame *frame);
+
+#endif

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+#include "fit/height.h"
+
+#include "base/memory.h"
+#include "spline/basis.h"
+#include "spline/knots.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+crease_status crease_height_create(
+    crease_context *context, const crease_layout *layout, crease_height *out)
+{
+    *out = (crease_height){.order = layout->order};
+    for (int d = 0; d < 2; d++) {
+        out->count[d] = crease_layout_count(layout, d);
+        out->knots[d] =
+            crease_allocate(context, out->count[d] + (size_t)layout->order, sizeof(double));
+        if (out->knots[d])
+            crease_layout_knots(layout, d, out->knots[d]);
+    }
+    out->coefficients = crease_allocate(context, out->count[0] * out->count[1], sizeof(double));
+    if (out->knots[0] && out->knots[1] && out->coefficients)
+        return CREASE_OK;
+    crease_height_free(out);
+    return CREASE_ERROR_NO_MEMORY;
+}
+
+void crease_height_free(crease_height *height)
+{
+    free(height->knots[0]);
+    free(height->knots[1]);
+    free(height->coefficients);
+    *height = (crease_height){0};
+}
+
+void crease_height_support(const crease_height *height, const double uv[2],
+    const crease_side sides[2], int derivatives, crease_support *out)
+{
+    const int order = height->order;
+    for (int d = 0; d < 2; d++) {
+        const double *const knots = height->knots[d];
+        const double t = crease_basis_clamp(knots, order, height->count[d], uv[d]);
+        const size_t span = crease_basis_span(knots, order, height->count[d], t, sides[d]);
+        out->first[d] = span + 1 - (size_t)order;
+        double values[2 * CREASE_HEIGHT_ORDER_MAX];
+        if (derivatives) {
+            crease_basis_derivatives(knots, order, span, t, 1, values);
+            memcpy(out->slopes[d], values + order, (size_t)order * sizeof *values);
+        } else {
+            crease_basis_values(knots, order, span, t, values);
+        }
+        memcpy(out->values[d], values, (size_t)order * sizeof *values);
+    }
+}
+
+static double combine(
+    const crease_height *height, const crease_support *s, const double *u, const double *v)
+{
+    double sum = 0.0;
+    for (int i = 0; i < height->order; i++) {
+        const double *const c =
+            height->coefficients + (s->first[0] + (size_t)i) * height->count[1] + s->first[1];
+        double row = 0.0;
+        for (int j = 0; j < height->order; j++)
+            row += v[j] * c[j];
+        sum += u[i] * row;
+    }
+    return sum;
+}
+
+void crease_height_at(const crease_height *height, const double uv[2], const crease_side sides[2],
+    int derivatives, double out[3])
+{
+    crease_support s;
+    crease_height_support(height, uv, sides, derivatives, &s);
+    out[0] = combine(height, &s, s.values[0], s.values[1]);
+    if (!derivatives)
+        return;
+    out[1] = combine(height, &s, s.slopes[0], s.values[1]);
+    out[2] = combine(height, &s, s.values[0], s.slopes[1]);
+}
+
+crease_status crease_height_surface(crease_context *context, const crease_height *height,
+    const crease_frame *frame, crease_surface **out)
+{
+    const size_t rows = height->count[0], columns = height->count[1];
+    double *points = crease_allocate(context, rows * columns, 3 * sizeof *points);
+    double *places = crease_allocate(context, rows + columns, sizeof *places);
+    crease_status status = points && places ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+    if (status == CREASE_OK) {
+        crease_knots_greville(height->knots[0], height->order, rows, places);
+        crease_knots_greville(height->knots[1], height->order, columns, places + rows);
+        for (size_t i = 0; i < rows * columns; i++) {
+            points[3 * i] = places[i / columns];
+            points[3 * i + 1] = places[rows + i % columns];
+            points[3 * i + 2] = height->coefficients[i];
+        }
+        crease_frame_leave(frame, points, rows * columns, points);
+        const crease_surface_parts parts = {.order = {height->order, height->order},
+            .count = {rows, columns},
+            .knots = {height->knots[0], height->knots[1]},
+            .control_points = points};
+        status = crease_surface_create(context, &parts, out);
+    }
+    free(points);
+    free(places);
+    return status;
+}

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+#include "fit/samples.h"
+
+#include "base/memory.h"
+#include "base/parallel.h"
+#include "base/select.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { GRAIN = 16384, FOOT_STEPS = 3 };
+
+static crease_status allocate_all(crease_context *context, crease_samples *s)
+{
+    s->points = crease_allocate(context, s->count, 3 * sizeof(double));
+    s->uv = crease_allocate(context, s->count, 2 * sizeof(double));
+    double **const arrays[] = {
+        &s->target, &s->tilt, &s->prior, &s->weight, &s->residual, &s->scratch};
+    bool complete = s->points && s->uv;
+    for (size_t i = 0; i < sizeof arrays / sizeof arrays[0] && complete; i++) {
+        *arrays[i] = crease_allocate(context, s->count, sizeof(double));
+        complete = *arrays[i] != NULL;
+    }
+    return complete ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+}
+
+crease_status crease_samples_create(crease_context *context, const double *points,
+    const double *keep, size_t count, size_t step, double spacing, double epsilon,
+    crease_samples *out)
+{
+    *out = (crease_samples){.count = (count + step - 1) / step,
+        .step = step,
+        .source = points,
+        .spacing = spacing * sqrt((double)step)};
+    if (allocate_all(context, out) != CREASE_OK) {
+        crease_samples_free(out);
+        return CREASE_ERROR_NO_MEMORY;
+    }
+    double farthest = 0.0;
+    for (size_t i = 0; i < out->count; i++) {
+        out->prior[i] = out->weight[i] = keep[i * step];
+        out->used += out->prior[i];
+        for (size_t c = 0; c < 3; c++)
+            farthest = fmax(farthest, fabs(points[3 * i * step + c]));
+    }
+    out->rounding = fmax(DBL_MIN, 4.0 * epsilon * farthest);
+    return CREASE_OK;
+}
+
+void crease_samples_free(crease_samples *samples)
+{
+    free(samples->points);
+    free(samples->uv);
+    free(samples->target);
+    free(samples->tilt);
+    free(samples->prior);
+    free(samples->weight);
+    free(samples->residual);
+    free(samples->scratch);
+    *samples = (crease_samples){0};
+}
+
+void crease_samples_place(
+    crease_samples *samples, const crease_frame *frame, double low[2], double high[2])
+{
+    for (int c = 0; c < 2; c++)
+        low[c] = INFINITY, high[c] = -INFINITY;
+    for (size_t i = 0; i < samples->count; i++) {
+        double *const p = samples->points + 3 * i;
+        crease_frame_enter(frame, samples->source + 3 * i * samples->step, 1, p);
+        for (size_t c = 0; c < 2; c++) {
+            samples->uv[2 * i + c] = p[c];
+            if (samples->prior[i] > 0.0) {
+                low[c] = fmin(low[c], p[c]);
+                high[c] = fmax(high[c], p[c]);
+            }
+        }
+        samples->target[i] = p[2];
+        samples->tilt[i] = 1.0;
+    }
+}
+
+/* ---------------------------------------------------------------------------------- distances --
+ */
+
+typedef struct work {
+    crease_samples *samples;
+    const crease_height *height;
+    const crease_layout *layout;
+} work;
+
+static void hold(double *uv, double interval[2][2])
+{
+    for (int d = 0; d < 2; d++)
+        uv[d] = fmin(fmax(uv[d], interval[d][0]), interval[d][1]);
+}
+
+/* One Gauss-Newton step towards the foot. f: height and slopes at uv. */
+static void step_to_foot(const double *point, const double f[3], double *uv)
+{
+    const double dx = point[0] - uv[0], dy = point[1] - uv[1], dz = point[2] - f[0];
+    const double a = 1.0 + f[1] * f[1], b = f[1] * f[2], c = 1.0 + f[2] * f[2];
+    const double p = dx + f[1] * dz, q = dy + f[2] * dz, determinant = a * c - b * b;
+    uv[0] += (c * p - b * q) / determinant;
+    uv[1] += (a * q - b * p) / determinant;
+}
+
+static void find_foot(const work *w, const double *point, double *uv, double *target, double *tilt)
+{
+    double interval[2][2], f[3];
+    for (int d = 0; d < 2; d++)
+        crease_layout_between(w->layout, d, point[d], interval[d]);
+    hold(uv, interval);
+    for (int step = 0; step <= FOOT_STEPS; step++) {
+        crease_side sides[2];
+        for (int d = 0; d < 2; d++)
+            sides[d] = uv[d] < interval[d][1] ? CREASE_SIDE_RIGHT : CREASE_SIDE_LEFT;
+        crease_height_at(w->height, uv, sides, 1, f);
+        if (step < FOOT_STEPS) {
+            step_to_foot(point, f, uv);
+            hold(uv, interval);
+        }
+    }
+    *target = point[2] - f[1] * (point[0] - uv[0]) - f[2] * (point[1] - uv[1]);
+    *tilt = 1.0 / sqrt(1.0 + f[1] * f[1] + f[2] * f[2]);
+}
+
+static void project_some(void *user, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const work *const w = user;
+    crease_samples *const s = w->samples;
+    for (size_t i = begin; i < end; i++)
+        find_foot(w, s->points + 3 * i, s->uv + 2 * i, &s->target[i], &s->tilt[i]);
+}
+
+crease_status crease_samples_project(crease_context *context, crease_samples *samples,
+    const crease_height *height, const crease_layout *layout)
+{
+    work w = {.samples = samples, .height = height, .layout = layout};
+    return crease_parallel_for(context, samples->count, GRAIN, project_some, &w);
+}
+
+static void measure_some(void *user, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const work *const w = user;
+    crease_samples *const s = w->samples;
+    const crease_side sides[2] = {CREASE_SIDE_RIGHT, CREASE_SIDE_RIGHT};
+    for (size_t i = begin; i < end; i++) {
+        double f[3];
+        crease_height_at(w->height, s->uv + 2 * i, sides, 0, f);
+        s->residual[i] = s->tilt[i] * (s->target[i] - f[0]);
+    }
+}
+
+crease_status crease_samples_measure(
+    crease_context *context, crease_samples *samples, const crease_height *height)
+{
+    work w = {.samples = samples, .height = height};
+    return crease_parallel_for(context, samples->count, GRAIN, measure_some, &w);
+}
+
+double crease_samples_mean_distance(crease_samples *samples)
+{
+    const double most = fmax(10.0 * crease_samples_scale(samples), 2.0 * samples->spacing);
+    double sum = 0.0;
+    for (size_t i = 0; i < samples->count; i++)
+        sum += samples->prior[i] * fmin(fabs(samples->residual[i]), most);
+    return sum / samples->used;
+}
+
+/* ------------------------------------------------------------------------------------ weights --
+ */
+
+double crease_samples_scale(crease_samples *samples)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < samples->count; i++)
+        if (samples->prior[i] > 0.0)
+            samples->scratch[kept++] = fabs(samples->residual[i]);
+    const double median = crease_select(samples->scratch, kept, kept / 2);
+    return fmax(fmax(samples->rounding, 1e-8 * samples->spacing), 1.4826 * median);
+}
+
+void crease_samples_reweigh(crease_samples *samples, double scale, bool redescending)
+{
+    for (size_t i = 0; i < samples->count; i++) {
+        const double r = samples->residual[i] / scale;
+        const double robust =
+            redescending ? 1.0 / (1.0 + r * r / 5.6) : 1.0 / sqrt(1.0 + r * r / 2.25);
+        samples->weight[i] = samples->prior[i] * robust;
+    }
+}

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+#include "fit/system.h"
+
+#include "base/memory.h"
+#include "base/random.h"
+#include "fit/bending.h"
+
+#include <cblas.h>
+#include <lapacke.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STREAM_PROBES = 0xf17 };
+
+crease_status crease_system_create(
+    crease_context *context, const crease_height *height, crease_system *out)
+{
+    const size_t rows = height->count[0], columns = height->count[1];
+    const size_t degree = (size_t)height->order - 1;
+    const bool upright = columns <= rows;
+    *out = (crease_system){.size = rows * columns,
+        .width = degree * (upright ? columns : rows) + degree + 1,
+        .stride = {upright ? columns : 1, upright ? 1 : rows}};
+    const size_t bytes = out->width * sizeof(double);
+    out->normal = crease_allocate(context, out->size, bytes);
+    out->bending = crease_allocate(context, out->size, bytes);
+    out->factor = crease_allocate(context, out->size, bytes);
+    out->right = crease_allocate(context, out->size, sizeof(double));
+    out->solution = crease_allocate(context, out->size, sizeof(double));
+    out->probes = crease_allocate(context, out->size, 2 * CREASE_PROBES * sizeof(double));
+    crease_status status =
+        out->normal && out->bending && out->factor && out->right && out->solution && out->probes
+        ? crease_bending_fill(context, height, out)
+        : CREASE_ERROR_NO_MEMORY;
+    if (status != CREASE_OK)
+        crease_system_free(out);
+    return status;
+}
+
+void crease_system_free(crease_system *system)
+{
+    free(system->normal);
+    free(system->bending);
+    free(system->factor);
+    free(system->right);
+    free(system->solution);
+    free(system->probes);
+    *system = (crease_system){0};
+}
+
+size_t crease_system_index(const crease_system *system, size_t i, size_t j)
+{
+    return system->stride[0] * i + system->stride[1] * j;
+}
+
+static double trace(const crease_system *system, const double *matrix)
+{
+    double sum = 0.0;
+    for (size_t i = 0; i < system->size; i++)
+        sum += matrix[i * system->width];
+    return sum;
+}
+
+bool crease_system_factor(crease_system *system, double lambda)
+{
+    const double share = lambda * trace(system, system->normal) / trace(system, system->bending);
+    for (size_t i = 0; i < system->size * system->width; i++)
+        system->factor[i] = system->normal[i] + share * system->bending[i];
+    system->lambda = lambda;
+    return LAPACKE_dpbtrf_work(LAPACK_COL_MAJOR, 'L', (lapack_int)system->size,
+               (lapack_int)system->width - 1, system->factor, (lapack_int)system->width) == 0;
+}
+
+void crease_system_solve_many(const crease_system *system, double *sides, size_t count)
+{
+    LAPACKE_dpbtrs_work(LAPACK_COL_MAJOR, 'L', (lapack_int)system->size,
+        (lapack_int)system->width - 1, (lapack_int)count, system->factor, (lapack_int)system->width,
+        sides, (lapack_int)system->size);
+}
+
+void crease_system_solve(crease_system *system, crease_height *height)
+{
+    memcpy(system->solution, system->right, system->size * sizeof *system->right);
+    crease_system_solve_many(system, system->solution, 1);
+    for (size_t i = 0; i < height->count[0]; i++)
+        for (size_t j = 0; j < height->count[1]; j++)
+            height->coefficients[i * height->count[1] + j] =
+                system->solution[crease_system_index(system, i, j)];
+}
+
+static void multiply_normal(const crease_system *system, const double *x, double *y)
+{
+    cblas_dsbmv(CblasColMajor, CblasLower, (int)system->size, (int)system->width - 1, 1.0,
+        system->normal, (int)system->width, x, 1, 0.0, y, 1);
+}
+
+/* Sets probes begin .. end - 1: unit vectors for an exact trace, else random signs. */
+static void set_probes(const crease_system *system, size_t begin, size_t end, bool exact)
+{
+    memset(system->probes, 0, (end - begin) * system->size * sizeof *system->probes);
+    for (size_t k = begin; k < end; k++) {
+        double *const probe = system->probes + (k - begin) * system->size;
+        if (exact)
+            probe[k] = 1.0;
+        for (size_t i = 0; i < system->size && !exact; i++)
+            probe[i] = crease_random_below(0, STREAM_PROBES + k, i, 2) ? 1.0 : -1.0;
+    }
+}
+
+double crease_system_freedom(crease_system *system)
+{
+    const bool exact = system->size <= 4 * CREASE_PROBES;
+    const size_t total = exact ? system->size : CREASE_PROBES, n = system->size;
+    double *const images = system->probes + CREASE_PROBES * n, sum = 0.0;
+    for (size_t begin = 0; begin < total; begin += CREASE_PROBES) {
+        const size_t end = begin + CREASE_PROBES < total ? begin + CREASE_PROBES : total;
+        set_probes(system, begin, end, exact);
+        for (size_t k = 0; k < end - begin; k++)
+            multiply_normal(system, system->probes + k * n, images + k * n);
+        crease_system_solve_many(system, images, end - begin);
+        for (size_t k = 0; k < (end - begin) * n; k++)
+            sum += system->probes[k] * images[k];
+    }
+    return exact ? sum : sum / CREASE_PROBES;
+}
