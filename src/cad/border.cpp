@@ -70,7 +70,7 @@ class Matcher
 };
 
 Matcher::Matcher(const std::vector<Patch> &patches, const Measure &measure)
-    : within(measure.tolerance / 4), vertices(result.vertices, within)
+    : within(measure.joint), vertices(result.vertices, within)
 {
     for (size_t i = 0; i < patches.size(); i++)
         for (int side = 0; side < SIDE_COUNT; side++)

@@ -119,28 +119,36 @@ static void count_shells(const TopoDS_Shape &shape, crease_cad_info &info)
             info.closed_shells++;
 }
 
+static gp_Pnt find_bounds(const TopoDS_Shape &shape, double unit, crease_cad_info &info)
+{
+    Bnd_Box box;
+    BRepBndLib::AddOptimal(shape, box, false, false);
+    if (box.IsVoid())
+        return gp_Pnt();
+    box.SetGap(0.0);
+    double *const low = info.lowest, *const high = info.highest;
+    box.Get(low[0], low[1], low[2], high[0], high[1], high[2]);
+    const gp_Pnt corner(low[0], low[1], low[2]);
+    for (int c = 0; c < 3; c++) {
+        low[c] /= unit;
+        high[c] /= unit;
+    }
+    return corner;
+}
+
+/* Volumes are summed from a corner of the bounds: far from the origin they would cancel. */
 static void measure(const TopoDS_Shape &shape, double unit, crease_cad_info &info)
 {
-    GProp_GProps area;
+    const gp_Pnt corner = find_bounds(shape, unit, info);
+    GProp_GProps area(corner);
     BRepGProp::SurfaceProperties(shape, area, INTEGRAL_ERROR);
     info.area = area.Mass() / (unit * unit);
     const TopTools_IndexedMapOfShape solids = parts_of(shape, TopAbs_SOLID);
     info.solids = (size_t)solids.Extent();
     for (int i = 1; i <= solids.Extent(); i++) {
-        GProp_GProps volume;
+        GProp_GProps volume(corner);
         BRepGProp::VolumeProperties(solids(i), volume, INTEGRAL_ERROR);
         info.volume += volume.Mass() / (unit * unit * unit);
-    }
-    Bnd_Box box;
-    BRepBndLib::AddOptimal(shape, box, false, false);
-    if (!box.IsVoid()) {
-        box.SetGap(0.0);
-        box.Get(info.lowest[0], info.lowest[1], info.lowest[2], info.highest[0], info.highest[1],
-            info.highest[2]);
-    }
-    for (int c = 0; c < 3; c++) {
-        info.lowest[c] /= unit;
-        info.highest[c] /= unit;
     }
     info.tolerance = ShapeAnalysis_ShapeTolerance().Tolerance(shape, 1) / unit;
 }

@@ -54,20 +54,23 @@ static Surface surface_of(crease_context *context, const Net &net)
     return Surface(surface);
 }
 
+/* Not by gp_XYZ::Coord(i): it reaches past a member, and optimisers take that for impossible. */
 Measure measure_of(const std::vector<Net> &nets)
 {
     gp_XYZ low(INFINITY, INFINITY, INFINITY), high = low.Reversed();
     for (const Net &net : nets)
-        for (const gp_XYZ &p : net.points)
-            for (int c = 1; c <= 3; c++) {
-                low.SetCoord(c, std::min(low.Coord(c), p.Coord(c)));
-                high.SetCoord(c, std::max(high.Coord(c), p.Coord(c)));
-            }
+        for (const gp_XYZ &p : net.points) {
+            low = gp_XYZ(
+                std::min(low.X(), p.X()), std::min(low.Y(), p.Y()), std::min(low.Z(), p.Z()));
+            high = gp_XYZ(
+                std::max(high.X(), p.X()), std::max(high.Y(), p.Y()), std::max(high.Z(), p.Z()));
+        }
     const double reach = std::max(low.Modulus(), high.Modulus());
     Measure measure;
     measure.size = (high - low).Modulus();
     measure.fuzz = 1e-12 * measure.size + 16 * std::numeric_limits<double>::epsilon() * reach;
     measure.tolerance = std::max(4 * measure.fuzz, std::min(1e-7, 1e-5 * measure.size));
+    measure.joint = measure.tolerance / 4;
     return measure;
 }
 

@@ -37,6 +37,7 @@ struct Net {
 struct Measure {
     double size;      /* diagonal of the bounding box */
     double fuzz;      /* control points nearer than this are one point, up to rounding */
+    double joint;     /* borders and vertices nearer than this are joined */
     double tolerance; /* what CAD programs are told: points nearer than this are one vertex */
 };
 

@@ -7,14 +7,12 @@
 #include "cad/kernel.hpp"
 #include "cad/occt.hpp"
 
-#include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Line.hxx>
-#include <ShapeFix_Shape.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
 #include <TColgp_Array1OfPnt2d.hxx>
@@ -27,6 +25,7 @@
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 
@@ -35,6 +34,8 @@ namespace crease_cad
 
 namespace
 {
+
+constexpr double LEAST_VOLUME = 1e-9; /* beside the area to the power 3/2 */
 
 /* Makes the faces one by one; the edges are made once and then get a curve in the (u, v) plane for
  * each of their faces. */
@@ -245,8 +246,13 @@ TopoDS_Shape Assembly::shell_of(size_t number)
     out.Closed(BRep_Tool::IsClosed(out));
     if (!out.Closed())
         return out;
-    GProp_GProps volume;
+    GProp_GProps area, volume(gp_Pnt(borders.vertices[0]));
+    BRepGProp::SurfaceProperties(out, area);
     BRepGProp::VolumeProperties(out, volume);
+    if (std::fabs(volume.Mass()) < LEAST_VOLUME * std::pow(area.Mass(), 1.5))
+        throw Failure{CREASE_ERROR_NUMERIC,
+            "surfaces lie on each other: the closed shell around "
+            "them is empty; leave one out"};
     if (volume.Mass() < 0)
         out.Reverse();
     TopoDS_Solid solid;

@@ -55,7 +55,7 @@ static void add_smooth_pieces(crease_context *context, const Net &net, size_t su
             add_smooth_pieces(context, d == 0 ? piece : transposed(piece), surface, measure, out);
         return;
     }
-    if (!collapsed(net, measure.fuzz))
+    if (!collapsed(net, measure.joint))
         out.push_back({straightened(context, net, measure.fuzz), surface});
 }
 

@@ -74,7 +74,9 @@ static void given_any_format_then_the_counts_are_the_same(void **state)
         assert_string_equal(info.format, formats[i]);
         then_counts_are(&info, 1, 6, 12, 8, 0, 12);
         assert_near(info.volume, 8.0, 1e-9);
-        m.count = 1;
+        free_model(&m);
+        m = given_model();
+        add_shaped(&m, 4, 4, IDENTITY, flat);
         info = when_written_and_read(&m, names[i]);
         then_counts_are(&info, 0, 1, 4, 4, 4, 0);
         free_model(&m);
@@ -188,6 +190,59 @@ static void given_a_border_shrunk_to_a_point_then_it_is_a_vertex(void **state)
     }
 }
 
+static void given_a_knot_of_multiplicity_beyond_the_degree_then_the_surface_is_torn(void **state)
+{
+    model m = given_model();
+    const double u[] = {0, 0, 1, 1, 2, 2}, v[] = {0, 0, 1, 1};
+    const double points[] = {
+        0, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 1, 0, 5, 1, 1, 5, 2, 0, 5, 2, 1, 5};
+    add_surface(&m, &(crease_surface_parts){{2, 2}, {4, 2}, {u, v}, points});
+    const crease_cad_info info = when_written_and_read(&m, "torn.step");
+    then_counts_are(&info, 0, 2, 8, 8, 8, 0);
+    assert_int_equal(info.shells, 2);
+    free_model(&m);
+}
+
+/* Too few equal rows to be given a better parameter, but no reason to refuse. */
+static void given_two_equal_rows_at_a_border_then_the_face_is_valid(void **state)
+{
+    static const char *const names[] = {"two.step", "two.igs", "two.brep"};
+    for (int i = 0; i < 3; i++) {
+        model m = given_model();
+        double points[4 * 4 * 3], knots[8];
+        clamped_knots(4, 4, knots);
+        for (size_t k = 0; k < 16; k++) {
+            const double x = k < 4 ? 1.0 : (double)(k / 4);
+            memcpy(points + 3 * k, (double[]){x, (double)(k % 4), x * x}, 3 * sizeof(double));
+        }
+        add_surface(&m, &(crease_surface_parts){{4, 4}, {4, 4}, {knots, knots}, points});
+        const crease_cad_info info = when_written_and_read(&m, names[i]);
+        then_counts_are(&info, 0, 1, 4, 4, 4, 0);
+        free_model(&m);
+    }
+}
+
+static void given_a_ring_closed_both_ways_then_it_is_a_solid(void **state)
+{
+    enum { AROUND = 12 };
+    model m = given_model();
+    double knots[AROUND + 4], points[AROUND * AROUND * 3];
+    clamped_knots(4, AROUND, knots);
+    for (size_t i = 0; i < AROUND; i++)
+        for (size_t j = 0; j < AROUND; j++) {
+            const double turn = 2 * acos(-1.0);
+            const double a = turn * greville(knots, 4, i % (AROUND - 1));
+            const double b = turn * greville(knots, 4, j % (AROUND - 1)), out = 3 + cos(b);
+            memcpy(points + 3 * (i * AROUND + j), (double[]){out * cos(a), out * sin(a), sin(b)},
+                3 * sizeof(double));
+        }
+    add_surface(&m, &(crease_surface_parts){{4, 4}, {AROUND, AROUND}, {knots, knots}, points});
+    const crease_cad_info info = when_written_and_read(&m, "ring.step");
+    then_counts_are(&info, 1, 1, 2, 1, 0, 0);
+    assert_true(info.volume > 30 && info.volume < 60);
+    free_model(&m);
+}
+
 static void given_one_long_border_and_two_short_ones_then_its_parts_are_shared(void **state)
 {
     for (int turned = 0; turned < 2; turned++) {
@@ -243,7 +298,7 @@ static void given_any_size_and_place_then_the_model_is_valid_and_closed(void **s
             add_box(&m, s, (double[]){o, -o, o / 2});
             crease_cad_info info = when_written_and_read(&m, names[k]);
             then_counts_are(&info, 1, 6, 12, 8, 0, 12);
-            assert_near(info.volume / (s * s * s), 1.0, o > 0 ? 1e-6 : 1e-9);
+            assert_near(info.volume / (s * s * s), 1.0, o > 0 ? 1e-8 : 1e-9);
             assert_near(info.highest[0] - info.lowest[0], s, 1e-6 * s + 3e-7);
             assert_true(info.tolerance < 1e-4 * s);
             free_model(&m);
@@ -364,6 +419,15 @@ static void given_a_band_with_one_side_then_a_sentence_says_so(void **state)
     free_model(&m);
 }
 
+static void given_a_surface_twice_then_a_sentence_says_so(void **state)
+{
+    model m = given_model();
+    add_shaped(&m, 5, 5, IDENTITY, bump);
+    add_shaped(&m, 5, 5, IDENTITY, bump);
+    then_it_fails(&m, in_folder("twice.step"), CREASE_ERROR_NUMERIC, "lie on each other");
+    free_model(&m);
+}
+
 static void given_memory_that_runs_out_then_every_failure_is_told(void **state)
 {
     model m = given_model();
@@ -418,6 +482,9 @@ int main(void)
         cmocka_unit_test(given_a_fold_without_area_then_it_is_left_out),
         cmocka_unit_test(given_a_closed_tube_then_it_has_a_seam),
         cmocka_unit_test(given_a_border_shrunk_to_a_point_then_it_is_a_vertex),
+        cmocka_unit_test(given_a_knot_of_multiplicity_beyond_the_degree_then_the_surface_is_torn),
+        cmocka_unit_test(given_two_equal_rows_at_a_border_then_the_face_is_valid),
+        cmocka_unit_test(given_a_ring_closed_both_ways_then_it_is_a_solid),
         cmocka_unit_test(given_one_long_border_and_two_short_ones_then_its_parts_are_shared),
         cmocka_unit_test(given_borders_of_different_orders_and_knots_then_the_edge_is_shared),
         cmocka_unit_test(given_surfaces_apart_then_there_are_several_shells),
@@ -427,6 +494,7 @@ int main(void)
         cmocka_unit_test(given_a_name_that_will_not_do_then_a_sentence_says_so),
         cmocka_unit_test(given_surfaces_without_area_then_nothing_is_written),
         cmocka_unit_test(given_a_band_with_one_side_then_a_sentence_says_so),
+        cmocka_unit_test(given_a_surface_twice_then_a_sentence_says_so),
         cmocka_unit_test(given_memory_that_runs_out_then_every_failure_is_told),
         cmocka_unit_test(given_two_threads_with_a_context_each_then_both_are_served),
     };

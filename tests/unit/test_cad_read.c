@@ -71,6 +71,28 @@ static void given_spoiled_files_then_sentences_come_and_nothing_is_printed(void 
     assert_int_equal(printed_by(read_spoiled), 0);
 }
 
+/* The numbers of a file in metres are those of the same file in millimetres. */
+static void given_a_file_in_metres_then_lengths_are_in_metres(void **state)
+{
+    model m = given_model();
+    add_box(&m, 2.0, (double[]){1, 0, 0});
+    when_written(&m, in_folder("unit.step"));
+    char *bytes = NULL;
+    const size_t size = read_bytes(in_folder("unit.step"), &bytes);
+    bytes[size] = 0;
+    char *prefix = strstr(bytes, ".MILLI.");
+    assert_non_null(prefix);
+    memcpy(prefix, "$      ", 7);
+    write_bytes(in_folder("unit.step"), bytes, size);
+    free(bytes);
+    const crease_cad_info info = when_read(&m, in_folder("unit.step"));
+    then_counts_are(&info, 1, 6, 12, 8, 0, 12);
+    assert_near(info.volume, 8.0, 1e-9);
+    assert_near(info.area, 24.0, 1e-9);
+    assert_near(info.highest[0], 3.0, 1e-6);
+    free_model(&m);
+}
+
 static void then_reading_fails(const char *path, crease_status expected, const char *word)
 {
     crease_context *context = given_context();
@@ -100,6 +122,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(given_spoiled_files_then_sentences_come_and_nothing_is_printed),
+        cmocka_unit_test(given_a_file_in_metres_then_lengths_are_in_metres),
         cmocka_unit_test(given_no_cad_file_then_a_sentence_says_so),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
