@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* crease fit: a surface that keeps its sharp edges. */
+#include "command.h"
+#include "input.h"
+#include "target.h"
+
+#ifdef CREASE_HAVE_CAD
+#include "crease/crease_cad.h"
+#endif
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { ALLOWED = TARGET_CAD | TARGET_MESH | TARGET_FIGURE | TARGET_PAGE | TARGET_REPORT };
+
+/* What the fit has brought: everything that is written. */
+typedef struct result {
+    crease_sheet *sheet;
+    crease_surface **faces;
+    size_t face_count;
+    crease_curve **lines;
+    size_t line_count;
+    crease_cloud *cloud;     /* the input with variance and deviation */
+    crease_cloud *projected; /* the same on the surface */
+} result;
+
+static void result_free(result *all)
+{
+    for (size_t i = 0; i < all->line_count; i++)
+        crease_curve_free(all->lines[i]);
+    free(all->lines);
+    crease_surfaces_free(all->faces, all->face_count);
+    crease_cloud_free(all->projected);
+    crease_cloud_free(all->cloud);
+    crease_sheet_free(all->sheet);
+}
+
+static crease_status fit(
+    crease_context *context, const settings *s, const crease_cloud *cloud, crease_sheet **out)
+{
+    return s->method == METHOD_AVERAGING ? crease_averaging_fit(context, cloud, &s->averaging, out)
+                                         : crease_sheet_fit(context, cloud, &s->sheet, out);
+}
+
+static crease_status make_lines(crease_context *context, result *all)
+{
+    const size_t count = crease_sheet_line_count(all->sheet);
+    all->lines = calloc(count ? count : 1, sizeof *all->lines);
+    crease_status status = all->lines ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+    for (size_t i = 0; i < count && status == CREASE_OK; i++) {
+        status = crease_sheet_line_curve(context, all->sheet, i, &all->lines[i]);
+        all->line_count += status == CREASE_OK;
+    }
+    return status;
+}
+
+static crease_status make_clouds(crease_context *context, const crease_cloud *cloud, result *all)
+{
+    const double *variance = crease_sheet_variance(all->sheet);
+    const crease_field fields[] = {
+        {"deviation", CREASE_TYPE_FLOAT64, crease_sheet_deviations(all->sheet)},
+        {"variance", CREASE_TYPE_FLOAT64, variance},
+    };
+    const crease_cloud_parts parts = {.count = crease_cloud_count(cloud),
+        .points = crease_sheet_projected(all->sheet),
+        .fields = fields,
+        .field_count = variance ? 2 : 1,
+        .coordinate_type = CREASE_TYPE_FLOAT64};
+    crease_status status =
+        crease_cloud_with_fields(context, cloud, fields, parts.field_count, &all->cloud);
+    if (status == CREASE_OK)
+        status = crease_cloud_create(context, &parts, &all->projected);
+    return status;
+}
+
+static crease_status make_result(
+    crease_context *context, const settings *s, const crease_cloud *cloud, result *all)
+{
+    crease_status status = fit(context, s, cloud, &all->sheet);
+    if (status == CREASE_OK)
+        status = crease_sheet_faces(context, all->sheet, &all->faces, &all->face_count);
+    if (status == CREASE_OK)
+        status = make_lines(context, all);
+    if (status == CREASE_OK)
+        status = make_clouds(context, cloud, all);
+    return status;
+}
+
+typedef struct deviation_summary {
+    double rms, p95, most;
+} deviation_summary;
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static deviation_summary summarise(const double *deviations, size_t count)
+{
+    deviation_summary summary = {0, 0, 0};
+    double *size = calloc(count ? count : 1, sizeof *size);
+    double square = 0;
+    if (!size || !count) {
+        free(size);
+        return summary;
+    }
+    for (size_t i = 0; i < count; i++) {
+        size[i] = fabs(deviations[i]);
+        square += deviations[i] * deviations[i];
+    }
+    qsort(size, count, sizeof *size, ascending);
+    summary.rms = sqrt(square / (double)count);
+    summary.p95 = size[(count - 1) * 95 / 100];
+    summary.most = size[count - 1];
+    free(size);
+    return summary;
+}
+
+static void describe_lines(report *r, const result *all)
+{
+    cJSON *list = cJSON_AddArrayToObject(r->root, "creases");
+    for (size_t i = 0; i < all->line_count; i++) {
+        const crease_line line = crease_sheet_line(all->sheet, i);
+        cJSON *object = cJSON_CreateObject();
+        cJSON_AddStringToObject(object, "constant", line.direction == 0 ? "u" : "v");
+        cJSON_AddNumberToObject(object, "parameter", line.parameter);
+        cJSON_AddNumberToObject(object, "angle", line.angle);
+        cJSON_AddNumberToObject(object, "standard_error", line.standard_error);
+        cJSON_AddItemToArray(list, object);
+        report_line(r, "crease at %s = %.6g: dihedral angle %.2f degrees",
+            line.direction == 0 ? "u" : "v", line.parameter, line.angle);
+    }
+}
+
+static void describe_surface(report *r, const crease_surface *surface)
+{
+    const crease_surface_parts parts = crease_surface_parts_of(surface);
+    static const char *const directions[] = {"u", "v"};
+    cJSON *object = cJSON_AddObjectToObject(r->root, "surface");
+    for (int d = 0; d < 2; d++) {
+        cJSON *one = cJSON_AddObjectToObject(object, directions[d]);
+        cJSON_AddNumberToObject(one, "order", parts.order[d]);
+        cJSON_AddItemToObject(one, "knots",
+            cJSON_CreateDoubleArray(parts.knots[d], (int)parts.count[d] + parts.order[d]));
+    }
+    cJSON *net = cJSON_AddArrayToObject(object, "control_points");
+    for (size_t i = 0; i < parts.count[0]; i++) {
+        cJSON *row = cJSON_CreateArray();
+        for (size_t j = 0; j < parts.count[1]; j++)
+            cJSON_AddItemToArray(row,
+                cJSON_CreateDoubleArray(parts.control_points + 3 * (i * parts.count[1] + j), 3));
+        cJSON_AddItemToArray(net, row);
+    }
+}
+
+static void describe(report *r, const result *all)
+{
+    const size_t count = crease_sheet_point_count(all->sheet);
+    const deviation_summary d = summarise(crease_sheet_deviations(all->sheet), count);
+    const crease_surface_parts parts = crease_surface_parts_of(crease_sheet_surface(all->sheet));
+    cJSON *object = cJSON_AddObjectToObject(r->root, "deviation");
+    cJSON_AddNumberToObject(object, "rms", d.rms);
+    cJSON_AddNumberToObject(object, "p95", d.p95);
+    cJSON_AddNumberToObject(object, "max", d.most);
+    cJSON_AddNumberToObject(r->root, "faces", (double)all->face_count);
+    report_line(r, "%zu x %zu control points, %zu faces, %zu creases", parts.count[0],
+        parts.count[1], all->face_count, all->line_count);
+    describe_lines(r, all);
+    report_line(r, "deviation: rms %.4g, 95 %% below %.4g, max %.4g", d.rms, d.p95, d.most);
+    describe_surface(r, crease_sheet_surface(all->sheet));
+}
+
+static crease_status write_cad(crease_context *context, const result *all, const char *path)
+{
+#ifdef CREASE_HAVE_CAD
+    return crease_cad_write(
+        context, (const crease_surface *const *)all->faces, all->face_count, path);
+#else
+    (void)all;
+    return crease_context_fail(context, CREASE_ERROR_UNSUPPORTED,
+        "%s: this build writes no CAD models; build with OpenCASCADE (CREASE_CAD=ON)", path);
+#endif
+}
+
+static crease_status write_mesh(crease_context *context, const result *all, const char *path)
+{
+    crease_mesh *mesh = NULL;
+    crease_status status = crease_mesh_create(
+        context, (const crease_surface *const *)all->faces, all->face_count, 0.0, &mesh);
+    if (status == CREASE_OK)
+        status = crease_mesh_write(context, mesh, path);
+    crease_mesh_free(mesh);
+    return status;
+}
+
+static crease_status write_seen(
+    crease_context *context, const settings *s, const result *all, const char *path)
+{
+    const crease_surface *whole = crease_sheet_surface(all->sheet);
+    crease_scene *scene = NULL;
+    crease_status status = crease_scene_create(context, target_name(s->inputs[0]), &scene);
+    if (status == CREASE_OK)
+        status = crease_scene_add_cloud(context, scene, "points", all->cloud);
+    if (status == CREASE_OK)
+        status = crease_scene_add_surfaces(context, scene, "surface", &whole, 1, true);
+    if (status == CREASE_OK)
+        status = crease_scene_add_curves(
+            context, scene, "creases", (const crease_curve *const *)all->lines, all->line_count);
+    if (status == CREASE_OK)
+        status = target_of(path, ALLOWED) == TARGET_PAGE
+            ? crease_page_write(context, scene, path)
+            : crease_figure_write(context, scene, NULL, path);
+    crease_scene_free(scene);
+    return status;
+}
+
+static crease_status write_one(
+    crease_context *context, const settings *s, report *r, const result *all, const char *path)
+{
+    switch (target_of(path, ALLOWED)) {
+    case TARGET_CAD:
+        return write_cad(context, all, path);
+    case TARGET_MESH:
+        return write_mesh(context, all, path);
+    case TARGET_REPORT:
+        return target_write_report(context, r, path);
+    default:
+        return write_seen(context, s, all, path);
+    }
+}
+
+static crease_status write_outputs(
+    crease_context *context, const settings *s, report *r, const result *all)
+{
+    crease_status status = CREASE_OK;
+    for (size_t i = 0; i < s->output_count && status == CREASE_OK; i++) {
+        status = write_one(context, s, r, all, s->outputs[i]);
+        if (status == CREASE_OK)
+            report_line(r, "wrote %s", s->outputs[i]);
+    }
+    if (status == CREASE_OK && s->creases)
+        status = crease_curves_write(
+            context, (const crease_curve *const *)all->lines, all->line_count, 0.0, s->creases);
+    if (status == CREASE_OK && s->points)
+        status = crease_cloud_write(context, all->projected, s->points);
+    report_stage(r, "write");
+    return status == CREASE_OK ? target_write_report(context, r, s->report) : status;
+}
+
+static crease_status check(crease_context *context, const settings *s)
+{
+    crease_status status = targets_check(context, s, ALLOWED);
+    if (status == CREASE_OK)
+        status = target_check(context, s->creases, TARGET_LINES);
+    if (status == CREASE_OK)
+        status = target_check(context, s->points, TARGET_CLOUD);
+    return status == CREASE_OK ? target_check(context, s->report, TARGET_REPORT) : status;
+}
+
+crease_status fit_run(crease_context *context, const settings *s, report *r)
+{
+    crease_cloud *cloud = NULL;
+    result all = {0};
+    crease_status status = check(context, s);
+    if (status == CREASE_OK)
+        status = input_read(context, s, r, &cloud);
+    if (status == CREASE_OK)
+        status = make_result(context, s, cloud, &all);
+    if (status == CREASE_OK) {
+        report_stage(r, "fit");
+        describe(r, &all);
+        status = write_outputs(context, s, r, &all);
+    }
+    result_free(&all);
+    crease_cloud_free(cloud);
+    return status;
+}

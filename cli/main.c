@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* crease: the program. Finds the command, runs it, tells how it went. */
+#include "command.h"
+#include "help.h"
+#include "terminal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const command commands[] = {
+    {"detect", FOR_DETECT, "detect CLOUD -o FILE [OPTIONS]", "find the points on sharp edges",
+        "Scores every point of a cloud by the bootstrap variance of its normal and tells which "
+        "points lie on sharp edges.\n\n"
+        "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL or OFF file; - is standard input.\n"
+        "What FILE gets depends on its extension: .ply .xyz .txt .csv .asc .pts the cloud with the "
+        "fields "
+        "`variance` and `feature`, all points in their order; .png .svg .pdf a figure; .html a "
+        "page to turn and pick points in; .json the report.",
+        detect_run},
+    {"fit", FOR_FIT, "fit CLOUD -o FILE [OPTIONS]", "fit a surface that keeps its sharp edges",
+        "Fits a bicubic B-spline surface to a cloud that is a height field in some direction, "
+        "sharp along the edges that the data show.\n\n"
+        "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL or OFF file; - is standard input.\n"
+        "What FILE gets depends on its extension: .step .stp .iges .igs .brep the CAD model, one "
+        "face for each "
+        "smooth piece; .obj .stl .ply .glb a mesh; .png .svg .pdf a figure; .html a page to turn "
+        "and pick points in; .json the report.",
+        fit_run},
+    {"info", FOR_INFO, "info FILE [OPTIONS]", "tell what a cloud or a CAD model holds",
+        "Reads a cloud (PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL, OFF) or a CAD model (STEP, "
+        "IGES, BREP) and tells what it holds.",
+        info_run},
+    {"example", FOR_EXAMPLE, "example cube|sample|panel -o FILE [OPTIONS]",
+        "make a cloud to try the others on",
+        "Makes a cloud: the paper's cube (6146 points), the paper's sample of 51 points at one "
+        "edge, or a scanned panel with noise, outliers and an edge along no axis.\n\n"
+        "FILE is .ply .xyz .txt .csv .asc or .pts.",
+        example_run},
+};
+
+const size_t command_count = sizeof commands / sizeof commands[0];
+
+static int exit_code(crease_status status)
+{
+    static const int codes[] = {[CREASE_KIND_NONE] = 0,
+        [CREASE_KIND_FAILURE] = 1,
+        [CREASE_KIND_USAGE] = 2,
+        [CREASE_KIND_INPUT] = 3};
+    return codes[crease_status_kind(status)];
+}
+
+static crease_status print_report(report *r)
+{
+    char *text = report_text(r);
+    if (!text || puts(text) == EOF || fflush(stdout) == EOF) {
+        free(text);
+        return CREASE_ERROR_CANNOT_WRITE;
+    }
+    free(text);
+    return CREASE_OK;
+}
+
+/* Tells of a failure on stderr and in the report. */
+static void tell_failure(const command *c, crease_context *context, crease_status status, report *r)
+{
+    const char *sentence = crease_context_message(context);
+    if (!*sentence)
+        sentence = crease_status_sentence(status);
+    fprintf(stderr, "crease %s: %s\n", c->name, sentence);
+    report_failure(r, status, sentence);
+}
+
+static crease_status run(const command *c, crease_context *context, const settings *s)
+{
+    report r;
+    if (!report_begin(&r, c->name, c->bit, s))
+        return CREASE_ERROR_NO_MEMORY;
+    cJSON_AddNumberToObject(r.root, "threads", crease_context_threads(context));
+    crease_status status = c->run(context, s, &r);
+    terminal_clear();
+    if (status != CREASE_OK)
+        tell_failure(c, context, status, &r);
+    if (s->json && print_report(&r) != CREASE_OK && status == CREASE_OK)
+        status = CREASE_ERROR_CANNOT_WRITE;
+    report_free(&r);
+    return status;
+}
+
+static int run_command(const command *c, int count, char **arguments)
+{
+    settings s = settings_default();
+    if (!options_parse(c->bit, c->name, count, arguments, &s))
+        return 2;
+    if (s.help) {
+        help_command(stdout, c);
+        return 0;
+    }
+    terminal_catch_signals();
+    crease_context_options o = crease_context_options_default();
+    o.threads = s.threads;
+    o.seed = s.seed;
+    o.cancelled = terminal_cancelled;
+    if (!s.quiet) {
+        o.progress = terminal_progress;
+        o.warn = terminal_warn;
+    }
+    crease_context *context = NULL;
+    crease_status status = crease_context_create(&o, &context);
+    if (status == CREASE_OK)
+        status = run(c, context, &s);
+    else
+        fprintf(stderr, "crease: %s\n", crease_status_sentence(status));
+    crease_context_free(context);
+    if (terminal_signal())
+        terminal_raise(terminal_signal());
+    return exit_code(status);
+}
+
+static int run_global(int count, char **arguments)
+{
+    const char *word = arguments[1];
+    if (strcmp(word, "--version") == 0 || strcmp(word, "-V") == 0) {
+        printf("crease %s\n", crease_version());
+    } else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0 ||
+        strcmp(word, "help") == 0) {
+        help_overview(stdout);
+    } else if (strcmp(word, "--man") == 0) {
+        help_man(stdout);
+    } else if (strcmp(word, "--completion") == 0 && count > 2) {
+        if (!help_completion(stdout, arguments[2])) {
+            fprintf(
+                stderr, "crease: completions are for bash, zsh or fish, not '%s'\n", arguments[2]);
+            return 2;
+        }
+    } else {
+        fprintf(stderr, "crease: there is no command '%s'; see crease --help\n", word);
+        return 2;
+    }
+    return 0;
+}
+
+int main(int count, char **arguments)
+{
+    if (count < 2) {
+        help_overview(stderr);
+        return 2;
+    }
+    for (size_t i = 0; i < command_count; i++)
+        if (strcmp(commands[i].name, arguments[1]) == 0)
+            return run_command(&commands[i], count - 2, arguments + 2);
+    return run_global(count, arguments);
+}

@@ -1,0 +1,47 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Help, usage errors and exit codes.
+. "$(dirname "$0")/given.sh"
+
+golden overview.txt --help
+golden detect_help.txt detect --help
+golden fit_help.txt fit --help
+golden info_help.txt info -h
+golden example_help.txt example --help
+golden no_command.txt
+golden bad_command.txt paint
+golden bad_option.txt fit cloud.ply --colour red
+
+expect 0 "crease " --version
+expect 2 "wants a value" fit cloud.ply --seed
+expect 2 "takes no value" fit cloud.ply --quiet=yes
+expect 2 "whole number from 4 to 256" detect cloud.ply -K 3
+expect 2 "whole number from 4 to 256" detect cloud.ply -K 16.5
+expect 2 "number from 0 to 1" detect cloud.ply --false-discovery-rate 2
+expect 2 "number from 0 to 1" detect cloud.ply --false-discovery-rate nan
+expect 2 "6x6" fit cloud.ply --net 6
+expect 2 "6x6" fit cloud.ply --net 3x6
+expect 2 "sheet or averaging" fit cloud.ply --method magic
+expect 2 "nine numbers" fit cloud.ply --rotation 1,0,0,0,1,0,0,0
+expect 2 "form a rotation" fit cloud.ply --rotation 1,0,0,0,1,0,0,0,2
+expect 2 "0 to 18446744073709551615" fit cloud.ply --seed -1
+expect 2 "one argument too many" detect a.ply b.ply
+expect 2 "the file to read" detect
+expect 2 ".ply .xyz" detect cloud.ply -o out.doc
+expect 2 ".step" fit cloud.ply -o out.doc
+expect 1 "the folder cannot be written" fit cloud.ply -o nowhere/out.step
+expect 3 "cloud.ply" detect cloud.ply
+expect 3 "cloud.ply" fit -- cloud.ply
+
+check "the man page names every command" sh -c '"$0" --man | grep -q "SH CREASE fit"' "$crease"
+if command -v mandoc >/dev/null; then
+    check "the man page has no faults" sh -c '"$0" --man | mandoc -T lint -W warning' "$crease"
+fi
+for shell in bash zsh fish; do
+    check "completion for $shell" sh -c '"$0" --completion "$1" | grep -q mark-threshold' "$crease" "$shell"
+    if command -v "$shell" >/dev/null; then
+        check "$shell accepts its completion" sh -c '"$0" --completion "$1" | "$1" -n' "$crease" "$shell"
+    fi
+done
+expect 2 "bash, zsh or fish" --completion tcsh
+finish

@@ -1,0 +1,73 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The main job: detect, fit, info on the example clouds.
+. "$(dirname "$0")/given.sh"
+
+expect 0 "6146 points" example cube -o cube.ply
+expect 0 "51 points" example sample -o sample.ply
+expect 0 "3000 points" example panel --count 3000 -o panel.ply
+expect 2 "no example" example teapot -o teapot.ply
+expect 2 "takes neither" example cube --noise 1 -o cube2.ply
+
+# --- detect
+expect 0 "lie on sharp edges" detect cube.ply -o edge.ply -o edge.csv -o edge.png --report edge.json
+expect 0 "field feature: 0 to 1" info edge.ply
+check "every point comes back in its order" python3 -c '
+rows = [line.split(",") for line in open("edge.csv").read().split("\n")[1:] if line]
+assert len(rows) == 6146
+for r in rows:
+    x, y, z, feature = float(r[0]), float(r[1]), float(r[2]), int(float(r[-1]))
+    on = sum(min(v, 1 - v) < 1e-9 for v in (x, y, z)) >= 2
+    far = sum(min(v, 1 - v) < 0.1 for v in (x, y, z)) == 1
+    assert not on or feature == 1, r
+    assert not far or feature == 0, r'
+
+# --- fit, sheet
+expect 0 "2 faces, 1 creases" fit sample.ply -o s.step -o s.igs -o s.brep -o s.obj -o s.stl -o s.ply \
+    -o s.glb -o s.png -o s.svg -o s.pdf -o s.html --creases s_creases.ply --points s_on.ply --report s.json
+for file in s.step s.igs s.brep; do
+    expect 0 "2 B-spline" info $file
+    expect 0 ", valid" info $file
+    expect 0 "1 sharp" info $file
+done
+expect 0 "51 points" info s_on.ply
+check "the report is whole" python3 -c '
+import json
+r = json.load(open("s.json"))
+assert r["program"] == "crease" and r["cloud"]["points"] == 51 and r["faces"] == 2
+assert abs(r["creases"][0]["angle"] - 90) < 0.5, r["creases"]
+assert r["deviation"]["rms"] < 1e-3 / 32
+assert r["options"]["seed"] == "1" and r["options"]["method"] == "sheet"
+u = r["surface"]["u"]["knots"]
+assert max(u.count(k) for k in u[4:-4]) == 3, u
+assert r["seconds"]["total"] > 0'
+
+# --- fit, the paper's algorithm: rows 3 and 4 are repeated, a flat-topped ridge
+expect 0 "control points" fit sample.ply --method averaging -o a.step --report a.json
+check "the paper repeats two rows of its net" python3 -c '
+import json
+r = json.load(open("a.json"))
+net = r["surface"]["control_points"]
+assert sorted((len(net), len(net[0]))) == [6, 10], (len(net), len(net[0]))'
+expect 0 ", valid" info a.step
+expect 0 "6 x 6" fit sample.ply --method averaging --row-threshold 6 -o b.step
+expect 0 "8 x 8" fit sample.ply --method averaging --net 8x8 --row-threshold 8 -o b.step
+
+# --- the same bytes for any number of threads, and for a second run
+for threads in 1 2 4; do
+    mkdir $threads
+    expect 0 "" detect panel.ply -q -t $threads -o $threads/d.ply
+    expect 0 "" fit panel.ply -q -t $threads -o $threads/f.step -o $threads/f.obj -o $threads/f.html -o $threads/f.png
+done
+for file in d.ply f.step f.obj f.html f.png; do
+    check "$file is the same for 1 and 2 threads" cmp 1/$file 2/$file
+    check "$file is the same for 1 and 4 threads" cmp 1/$file 4/$file
+done
+check "another seed draws other resamples" sh -c '! cmp -s 1/d.ply other.ply'
+
+# --- numbers are read and written with a point, whatever the locale
+check "a locale with commas changes nothing" sh -c '
+    LC_ALL=de_DE.UTF-8 "$0" fit sample.ply -q -o de.obj && "$0" fit sample.ply -q -o c.obj && cmp de.obj c.obj' "$crease"
+expect 0 "" fit sample.ply --quiet -o q.step
+[ -z "$printed" ] || fail "--quiet prints $printed"
+finish
