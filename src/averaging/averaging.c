@@ -122,6 +122,18 @@ static crease_status weigh(crease_context *context, const crease_cloud *cloud, w
     return status;
 }
 
+/* Moves the frame's origin up to the highest point: z = 0, where step 4 puts the first net, is the
+ * level of the ridge, as in the sample of the paper. Which points are nearest to it depends on
+ * that.
+ */
+static void lift_origin(crease_frame *frame, const double *local, size_t count)
+{
+    double highest[3] = {0.0, 0.0, -INFINITY};
+    for (size_t i = 0; i < count; i++)
+        highest[2] = fmax(highest[2], local[3 * i + 2]);
+    crease_frame_leave(frame, highest, 1, frame->origin);
+}
+
 /* Step 3. */
 static crease_status reorient(crease_context *context, work *w)
 {
@@ -135,6 +147,8 @@ static crease_status reorient(crease_context *context, work *w)
     w->local = crease_allocate(context, w->count, 3 * sizeof *w->local);
     if (!w->local)
         return CREASE_ERROR_NO_MEMORY;
+    crease_frame_enter(&w->sheet->frame, w->points, w->count, w->local);
+    lift_origin(&w->sheet->frame, w->local, w->count);
     crease_frame_enter(&w->sheet->frame, w->points, w->count, w->local);
     return CREASE_OK;
 }

@@ -10,6 +10,10 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* Weights are standard deviations of the variance; on flat ground rounding leaves less than this.
+ */
+static const double ROUNDING = 1e-9;
+
 static double at(double low, double high, size_t i, size_t count)
 {
     const double t = (double)i / (double)(count - 1);
@@ -61,7 +65,7 @@ static double weighted_height(
         total += z * w;
         plain += z;
     }
-    return sum > 0.0 ? total / sum : plain / k;
+    return sum > ROUNDING ? total / sum : plain / k;
 }
 
 crease_status crease_net_average(crease_context *context, crease_net *net, const crease_tree *tree,

@@ -21,7 +21,7 @@ void crease_net_free(crease_net *net);
 
 /* Step 5: z of every control point becomes sum z_i w_i / sum w_i over its k nearest data points,
  * `passes` times. The neighbours are found anew in every pass, since the net moves. Where all w_i
- * are zero (flat ground) the plain mean is taken, the limit of equal weights. */
+ * are zero, but for rounding (flat ground), the plain mean is taken, the limit of equal weights. */
 crease_status crease_net_average(crease_context *context, crease_net *net, const crease_tree *tree,
     const double *points, const double *weights, int k, int passes);
 

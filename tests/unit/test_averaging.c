@@ -66,7 +66,7 @@ static void given_two_near_points_then_the_height_is_their_weighted_mean(void **
 {
     crease_context *context = given_context();
     const double points[] = {0.1, 0, 1, -0.2, 0, 2, 5, 0, 100}, weights[] = {3, 7, 50};
-    const double flat[] = {0, 0, 50};
+    const double flat[] = {0, 1e-15, 50};
     crease_tree *tree = given_tree(context, points, 3);
     double place[] = {0, 0, 0};
     crease_net net = {.rows = 1, .columns = 1, .points = place};
@@ -323,7 +323,7 @@ static void given_projection_then_points_keep_their_place_and_lie_on_the_sheet(v
         off = fmax(off, fabs(crease_sheet_deviations(sheet)[i]));
         assert_true(crease_sheet_variance(sheet)[i] >= 0);
     }
-    assert_near(off / H, 1.05, 0.1); /* the ridge is cut off */
+    assert_near(off / H, 0.88, 0.05); /* the ridge is cut off */
     assert_int_equal(crease_sheet_point_count(sheet), 51);
     crease_sheet_free(sheet);
     crease_cloud_free(cloud);
