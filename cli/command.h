@@ -24,6 +24,7 @@ extern const size_t command_count;
 crease_status detect_run(crease_context *context, const settings *s, report *r);
 crease_status fit_run(crease_context *context, const settings *s, report *r);
 crease_status example_run(crease_context *context, const settings *s, report *r);
+crease_status reproduce_run(crease_context *context, const settings *s, report *r);
 crease_status info_run(crease_context *context, const settings *s, report *r);
 
 #endif

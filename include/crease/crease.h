@@ -532,6 +532,25 @@ CREASE_API crease_status crease_sheet_faces(
     crease_context *context, const crease_sheet *sheet, crease_surface ***out, size_t *count);
 CREASE_API void crease_surfaces_free(crease_surface **surfaces, size_t count);
 
+/** How true a sheet is to the two planes that its points were taken from. */
+typedef struct crease_accuracy {
+    size_t lines; /**< crease lines of the sheet */
+    /** Root mean square distance of the crease line nearest to the true edge from it; not a number
+     * when the sheet has no crease line. */
+    double position;
+    double angle; /**< dihedral angle at that line; 180 when there is none */
+    /** Width of the rounded or flattened zone: the length of the sheet, across the edge and through
+     * its place nearest to it, whose normal is more than 10 degrees off both planes. */
+    double width;
+    double rms; /**< distance of the sheet from the true faces, root mean square over its area */
+    double max; /**< largest such distance */
+} crease_accuracy;
+
+/** Measures a sheet that was fitted to crease_shape_sample(options), on 16 sections across the edge
+ * of 256 places each. */
+CREASE_API crease_accuracy crease_sample_accuracy(
+    const crease_sample_options *options, const crease_sheet *sheet);
+
 /* ------------------------------------------------------------------------------------ meshes -- */
 
 /** Triangles with shared vertices. */
@@ -601,8 +620,9 @@ CREASE_API crease_figure_options crease_figure_options_default(void);
 /** Draws a scene as PNG, SVG or PDF by extension. */
 CREASE_API crease_status crease_figure_write(crease_context *context, const crease_scene *scene,
     const crease_figure_options *options, const char *path);
-/** Draws several scenes as the panels (a), (b), (c) ... of one figure, row by row. options: count of
- * them, or NULL for the defaults; every panel has the width and height of the first. count: 1..26.
+/** Draws several scenes as the panels (a), (b), (c) ... of one figure, row by row. options: count
+ * of them, or NULL for the defaults; every panel has the width and height of the first.
+ * count: 1..26.
  */
 CREASE_API crease_status crease_figure_panels_write(crease_context *context,
     const crease_scene *const *scenes, const crease_figure_options *options, size_t count,

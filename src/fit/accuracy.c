@@ -169,3 +169,10 @@ crease_accuracy crease_accuracy_measure(const crease_sheet *sheet, const crease_
     measure_sections(surface, roof, &out);
     return out;
 }
+
+crease_accuracy crease_sample_accuracy(
+    const crease_sample_options *options, const crease_sheet *sheet)
+{
+    const crease_roof roof = crease_shape_sample_truth(options);
+    return crease_accuracy_measure(sheet, &roof);
+}

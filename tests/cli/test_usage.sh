@@ -8,6 +8,7 @@ golden detect_help.txt detect --help
 golden fit_help.txt fit --help
 golden info_help.txt info -h
 golden example_help.txt example --help
+golden reproduce_help.txt reproduce --help
 golden no_command.txt
 golden bad_command.txt paint
 golden bad_option.txt fit cloud.ply --colour red
