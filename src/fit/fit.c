@@ -145,7 +145,7 @@ static crease_status finish(crease_context *context, work *w, crease_samples *sa
     crease_status status = draft_samples(context, w, 1, samples);
     w->draft.redescending = w->draft.orthogonal = true;
     if (status == CREASE_OK)
-        status = crease_draft_fit(context, &w->draft, 6, true);
+        status = crease_draft_fit(context, &w->draft, 6, w->count <= MOST_EXPLORED);
     if (status == CREASE_OK)
         status = crease_lines_refine(context, &w->draft, w->count > MOST_EXPLORED ? 2 : 8, turn);
     if (status == CREASE_OK)

@@ -12,7 +12,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STREAM_PROBES = 0xf17 };
+enum { STREAM_PROBES = 0xf17, FEW_UNKNOWNS = 128 };
+
+/* Random signs, for an estimated trace; set once. */
+static void set_signs(crease_system *system)
+{
+    for (size_t i = 0; i < system->size; i += 32)
+        for (size_t k = 0; k < CREASE_PROBES; k++) {
+            uint32_t bits[4];
+            crease_random_block(0, STREAM_PROBES + k, i / 32, bits);
+            for (size_t b = 0; b < 32 && i + b < system->size; b++)
+                system->probes[k * system->size + i + b] = bits[0] >> b & 1 ? 1.0 : -1.0;
+        }
+}
 
 crease_status crease_system_create(
     crease_context *context, const crease_height *height, crease_system *out)
@@ -36,6 +48,8 @@ crease_status crease_system_create(
         : CREASE_ERROR_NO_MEMORY;
     if (status != CREASE_OK)
         crease_system_free(out);
+    else if (out->size > FEW_UNKNOWNS)
+        set_signs(out);
     return status;
 }
 
@@ -96,32 +110,37 @@ static void multiply_normal(const crease_system *system, const double *x, double
         system->normal, (int)system->width, x, 1, 0.0, y, 1);
 }
 
-/* Sets probes begin .. end - 1: unit vectors for an exact trace, else random signs. */
-static void set_probes(const crease_system *system, size_t begin, size_t end, bool exact)
+/* Unit vectors number begin .. end - 1, for an exact trace. */
+static void set_units(crease_system *system, size_t begin, size_t end)
 {
     memset(system->probes, 0, (end - begin) * system->size * sizeof *system->probes);
-    for (size_t k = begin; k < end; k++) {
-        double *const probe = system->probes + (k - begin) * system->size;
-        if (exact)
-            probe[k] = 1.0;
-        for (size_t i = 0; i < system->size && !exact; i++)
-            probe[i] = crease_random_below(0, STREAM_PROBES + k, i, 2) ? 1.0 : -1.0;
-    }
+    for (size_t k = begin; k < end; k++)
+        system->probes[(k - begin) * system->size + k] = 1.0;
+}
+
+/* Sum over `count` probes z of z^T factor^-1 normal z. */
+static double probe(crease_system *system, size_t count)
+{
+    const size_t n = system->size;
+    double *const images = system->probes + CREASE_PROBES * n, sum = 0.0;
+    for (size_t k = 0; k < count; k++)
+        multiply_normal(system, system->probes + k * n, images + k * n);
+    crease_system_solve_many(system, images, count);
+    for (size_t k = 0; k < count * n; k++)
+        sum += system->probes[k] * images[k];
+    return sum;
 }
 
 double crease_system_freedom(crease_system *system)
 {
-    const bool exact = system->size <= 4 * CREASE_PROBES;
-    const size_t total = exact ? system->size : CREASE_PROBES, n = system->size;
-    double *const images = system->probes + CREASE_PROBES * n, sum = 0.0;
-    for (size_t begin = 0; begin < total; begin += CREASE_PROBES) {
-        const size_t end = begin + CREASE_PROBES < total ? begin + CREASE_PROBES : total;
-        set_probes(system, begin, end, exact);
-        for (size_t k = 0; k < end - begin; k++)
-            multiply_normal(system, system->probes + k * n, images + k * n);
-        crease_system_solve_many(system, images, end - begin);
-        for (size_t k = 0; k < (end - begin) * n; k++)
-            sum += system->probes[k] * images[k];
+    if (system->size > FEW_UNKNOWNS)
+        return probe(system, CREASE_PROBES) / CREASE_PROBES;
+    double sum = 0.0;
+    for (size_t begin = 0; begin < system->size; begin += CREASE_PROBES) {
+        const size_t end =
+            begin + CREASE_PROBES < system->size ? begin + CREASE_PROBES : system->size;
+        set_units(system, begin, end);
+        sum += probe(system, end - begin);
     }
-    return exact ? sum : sum / CREASE_PROBES;
+    return sum;
 }

@@ -22,11 +22,11 @@ typedef struct crease_system {
     double *factor;   /* Cholesky factor of normal + lambda scale bending */
     double *right;    /* size */
     double *solution; /* size */
-    double *probes;   /* size x CREASE_PROBES */
+    double *probes;   /* 2 x CREASE_PROBES x size: vectors that the trace is taken with, images */
     double lambda;    /* of the factor */
 } crease_system;
 
-enum { CREASE_PROBES = 32 };
+enum { CREASE_PROBES = 8 };
 
 /* Makes room, and computes the bending matrix. */
 crease_status crease_system_create(

@@ -85,7 +85,7 @@ static void given_the_papers_strongest_noise_then_the_crease_stays(void **state)
 {
     crease_context *context = given_context();
     double sum = 0;
-    enum { SEEDS = 12 };
+    enum { SEEDS = 6 };
     for (uint64_t variant = 0; variant < SEEDS; variant++) {
         crease_cloud *cloud = given_sample(context, 17, 3, true, 0.64, variant);
         crease_sheet *sheet = when_fitted(context, cloud, NULL);
@@ -170,7 +170,7 @@ static void given_creased_bicubic_data_then_the_fit_is_exact(void **state)
 /* A plate with a block on it: a step, that is two crease lines, at every side of the block. */
 static void given_a_block_on_a_plate_then_lines_follow_its_sides(void **state)
 {
-    enum { SIDE = 60 };
+    enum { SIDE = 36 };
     crease_context *context = given_context();
     static double points[SIDE * SIDE][3];
     for (uint64_t i = 0; i < SIDE * SIDE; i++) {
@@ -291,7 +291,7 @@ static void given_any_number_of_threads_then_the_same_bytes(void **state)
     crease_surface_parts parts[2];
     for (int i = 0; i < 2; i++) {
         crease_context *context = given_context_with_threads(i ? 4 : 1);
-        crease_panel_options panel = {.count = 2000, .noise = 0.2, .outliers = 0.01};
+        crease_panel_options panel = {.count = 600, .noise = 0.2, .outliers = 0.01};
         crease_cloud *cloud = NULL;
         assert_int_equal(crease_shape_panel(context, &panel, &cloud), CREASE_OK);
         sheets[i] = when_fitted(context, cloud, NULL);
@@ -304,7 +304,7 @@ static void given_any_number_of_threads_then_the_same_bytes(void **state)
     assert_memory_equal(parts[0].control_points, parts[1].control_points,
         3 * parts[0].count[0] * parts[0].count[1] * sizeof(double));
     assert_memory_equal(crease_sheet_deviations(sheets[0]), crease_sheet_deviations(sheets[1]),
-        2000 * sizeof(double));
+        600 * sizeof(double));
     crease_sheet_free(sheets[0]);
     crease_sheet_free(sheets[1]);
 }
@@ -344,7 +344,7 @@ static void given_no_memory_then_fitting_fails_cleanly(void **state)
     crease_cloud *cloud = given_sample(context, 9, 3, true, 0, 0);
     crease_status status = CREASE_ERROR_NO_MEMORY;
     long n = 0;
-    for (; n < 100000 && status != CREASE_OK; n += 1 + n / 16) {
+    for (; n < 100000 && status != CREASE_OK; n += 1 + n / 4) {
         crease_sheet *sheet = NULL;
         crease_context_fail_allocation(context, n);
         status = crease_sheet_fit(context, cloud, NULL, &sheet);
