@@ -31,6 +31,7 @@ crease_status crease_context_create(const crease_context_options *options, creas
     context->stage = "";
     atomic_init(&context->cancelled, false);
     atomic_init(&context->allocations, -1);
+    atomic_flag_clear(&context->refusing);
     *out = context;
     return CREASE_OK;
 }

@@ -15,6 +15,7 @@ struct crease_context {
     const char *stage;       /* what the progress callback is told */
     atomic_bool cancelled;   /* set once the caller asked to stop */
     atomic_long allocations; /* allocations left before one fails on purpose; negative: no limit */
+    atomic_flag refusing;    /* a thread is writing the message about a failed allocation */
 };
 
 /* The library's own short name for storing a sentence "where: what; what to do" and returning the

@@ -17,11 +17,15 @@ static size_t granted(crease_context *context, size_t count, size_t size)
     return bytes;
 }
 
+/* Of threads that fail at the same time one writes the message. */
 static void *refuse(crease_context *context, size_t count, size_t size)
 {
+    if (atomic_flag_test_and_set(&context->refusing))
+        return NULL;
     crease_fail(context, CREASE_ERROR_NO_MEMORY,
         "memory ran out: %zu elements of %zu bytes are not to be had; use fewer points", count,
         size);
+    atomic_flag_clear(&context->refusing);
     return NULL;
 }
 

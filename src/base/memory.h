@@ -9,7 +9,7 @@
 #include "base/context.h"
 
 /* count elements of size bytes, zeroed; never NULL for zero bytes. On failure NULL, and the
- * context's message says so. Thread-safe except for the message. */
+ * context's message says so. Thread-safe. */
 void *crease_allocate(crease_context *context, size_t count, size_t size);
 
 /* Room for count elements of size bytes in a block got from crease_allocate; new bytes are not set.
