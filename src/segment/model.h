@@ -11,7 +11,7 @@
 
 /* A height z = f(x, y) over the frame of its model, by the coefficients of a polynomial or of a
  * uniform bicubic B-spline with spans x spans cells. Beyond low..high it goes on linearly. */
-typedef struct crease_height {
+typedef struct crease_patch {
     bool spline;
     int degree;             /* of the polynomial, 2..4 */
     int spans;              /* of the spline, 3..16 in both directions */
@@ -19,7 +19,7 @@ typedef struct crease_height {
     double unit[2];         /* polynomial: half the longer side (both); spline: a cell's sides */
     size_t coefficient_count;
     double *coefficients;
-} crease_height;
+} crease_patch;
 
 typedef struct crease_model {
     crease_region_type type;
@@ -30,17 +30,24 @@ typedef struct crease_model {
     double radius; /* sphere, cylinder; cone: where its axis passes the centre; torus: of the circle
                       along which the tube runs */
     double shape;  /* cone: growth of the radius along z; torus: radius of the tube; else 0 */
-    crease_height height;   /* CREASE_REGION_FREEFORM only */
+    crease_patch patch;    /* CREASE_REGION_FREEFORM only */
+    double pivot[3];       /* place and covariance of the parameters in the sense of */
+    double covariance[36]; /* primitive.h, lower triangle row by row; zero before it is estimated */
+    double leverage;       /* height field: mean variance of the surface at its points */
     double parameter_count; /* what the model costs in the comparison of models; rarer kinds more */
     double cost;            /* of the fit: sum of squared residuals / sigma^2, cut at 9, plus
                                parameter_count log(points) */
     double chi;             /* mean of the squared residuals / sigma^2, cut at 9 */
 } crease_model;
 
-/* Signed distance of a place from the model (height fields: to first order) and its gradient, which
+/* Signed distance of a place from the model (patch fields: to first order) and its gradient, which
  * has length 1. Positive on the side that the normals of the fit pointed to for planes and height
  * fields, outside for the others. */
 double crease_model_distance(const crease_model *model, const double place[3], double gradient[3]);
+
+/* Variance of the position of the surface at a place beside it, along its normal, from the noise of
+ * the points that it was fitted to. */
+double crease_model_variance(const crease_model *model, const double place[3]);
 
 /* A copy that owns its coefficients. */
 crease_status crease_model_copy(

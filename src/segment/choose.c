@@ -1,0 +1,297 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* Which kind of surface a sample shows: all kinds that its number of points can tell apart are
+ * fitted, and the cheapest by an information criterion is taken.
+ *
+ * Based on: Schwarz. Estimating the dimension of a model. 1978.
+ * Based on: Akaike. A new look at the statistical model identification. 1974. */
+#include "segment/fitter.h"
+
+#include "segment/patch.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double growing_share = 0.25; /* of the points, for kinds richer than a plane */
+static const double exact_share = 0.01;   /* cost of a point below which nothing richer is tried */
+
+typedef struct choice {
+    crease_fitter *fitter;
+    const crease_sample *sample;
+    crease_fit_rule rule;
+    crease_fit_level level;
+    const crease_model *warm;
+    crease_model quadratic; /* polynomial of degree 2; its coefficients are the third candidate's */
+    bool has_quadratic;
+    double log_count;
+} choice;
+
+crease_fit_level crease_fit_level_for(size_t count)
+{
+    return count < 16 ? CREASE_LEVEL_QUADRATIC
+        : count < 40  ? CREASE_LEVEL_ROUND
+        : count < 150 ? CREASE_LEVEL_SOLIDS
+                      : CREASE_LEVEL_ALL;
+}
+
+static double log_count(const crease_sample *sample)
+{
+    return log(fmax((double)sample->count, 2.0));
+}
+
+/* Sum of the cut squared residuals of a model relative to the sample's origin. */
+static double misfit(const crease_model *model, const crease_sample *sample, double sigma)
+{
+    double sum = 0.0, gradient[3];
+    for (size_t i = 0; i < sample->count; i++) {
+        const double r = crease_model_distance(model, sample->points + 3 * i, gradient) / sigma;
+        sum += fmin(r * r, CREASE_COST_CUT);
+    }
+    return sum;
+}
+
+static void shift(crease_model *model, const double origin[3], double sign)
+{
+    for (int c = 0; c < 3; c++)
+        model->centre[c] += sign * origin[c];
+}
+
+double crease_fit_cost(const crease_model *model, const crease_sample *sample, double sigma)
+{
+    crease_model local = *model;
+    shift(&local, sample->origin, -1.0);
+    return misfit(&local, sample, sigma) + model->parameter_count * log_count(sample);
+}
+
+static bool is_simple(const crease_model *model)
+{
+    return model->type != CREASE_REGION_FREEFORM ||
+        (!model->patch.spline && model->patch.degree == 2);
+}
+
+static double surcharge(const choice *at, const crease_model *model)
+{
+    const double share = model->type == CREASE_REGION_PLANE ? 0.0 : is_simple(model) ? 1.0 : 2.0;
+    switch (at->rule) {
+    case CREASE_RULE_GROWING:
+        return model->parameter_count * at->log_count +
+            growing_share * share * (double)at->sample->count;
+    case CREASE_RULE_AKAIKE:
+        return model->parameter_count * 2.0;
+    default:
+        return model->parameter_count * at->log_count;
+    }
+}
+
+static void rate(const choice *at, crease_model *model)
+{
+    const double sum = misfit(model, at->sample, at->fitter->sigma);
+    model->chi = sum / (double)at->sample->count;
+    model->cost = sum + surcharge(at, model);
+    if (!isfinite(model->cost))
+        model->cost = INFINITY;
+}
+
+/* Rates the model on trial and keeps it when it is better than the best. */
+static void compare(choice *at)
+{
+    crease_fitter *const fitter = at->fitter;
+    rate(at, &fitter->trial);
+    if (!(fitter->trial.cost < fitter->best.cost))
+        return;
+    const crease_model loser = fitter->best;
+    fitter->best = fitter->trial;
+    fitter->trial = loser;
+}
+
+/* Begins with no model at all. */
+static void begin(choice *at)
+{
+    crease_fitter *const fitter = at->fitter;
+    fitter->best = (crease_model){.cost = INFINITY, .chi = INFINITY};
+    fitter->trial = fitter->best;
+    fitter->best.patch.coefficients = fitter->coefficients[0];
+    fitter->trial.patch.coefficients = fitter->coefficients[1];
+    at->log_count = log_count(at->sample);
+}
+
+/* The model on trial becomes a copy of a primitive. */
+static void try_from(choice *at, const crease_model *model, crease_region_type type)
+{
+    crease_model *const trial = &at->fitter->trial;
+    double *const coefficients = trial->patch.coefficients;
+    *trial = *model;
+    trial->type = type;
+    trial->patch.coefficients = coefficients;
+}
+
+static void try_primitive(choice *at, bool guessed)
+{
+    if (guessed && crease_fit_primitive(at->fitter, at->sample, &at->fitter->trial))
+        compare(at);
+}
+
+static void try_warm(choice *at)
+{
+    if (!at->warm || at->warm->type == CREASE_REGION_PLANE ||
+        at->warm->type == CREASE_REGION_FREEFORM)
+        return;
+    try_from(at, at->warm, at->warm->type);
+    shift(&at->fitter->trial, at->sample->origin, -1.0);
+    try_primitive(at, true);
+}
+
+static void try_quadratic(choice *at, size_t least_points)
+{
+    crease_fitter *const fitter = at->fitter;
+    at->has_quadratic = at->sample->count >= least_points &&
+        crease_fit_polynomial(fitter, at->sample, 2, &fitter->trial);
+    if (!at->has_quadratic)
+        return;
+    at->quadratic = fitter->trial;
+    at->quadratic.patch.coefficients = fitter->coefficients[2];
+    memcpy(at->quadratic.patch.coefficients, fitter->trial.patch.coefficients,
+        fitter->trial.patch.coefficient_count * sizeof(double));
+}
+
+/* Cylinders from the normals and from the curvature; the better one is on trial in the end. False
+ * when there is none. */
+static bool better_cylinder(choice *at)
+{
+    crease_fitter *const fitter = at->fitter;
+    crease_model best = {.cost = INFINITY};
+    for (int way = 0; way < 2; way++) {
+        if (way == 1 && !at->has_quadratic)
+            break;
+        const bool guessed = way == 0
+            ? crease_guess_cylinder(at->sample, &fitter->trial)
+            : crease_guess_cylinder_along(at->sample, &at->quadratic, &fitter->trial);
+        if (!guessed || !crease_fit_primitive(fitter, at->sample, &fitter->trial))
+            continue;
+        rate(at, &fitter->trial);
+        if (fitter->trial.cost < best.cost)
+            best = fitter->trial;
+    }
+    if (best.cost < INFINITY)
+        try_from(at, &best, CREASE_REGION_CYLINDER);
+    return best.cost < INFINITY;
+}
+
+static void try_round(choice *at)
+{
+    try_warm(at);
+    try_primitive(at, crease_guess_sphere(at->sample, &at->fitter->trial));
+    if (!better_cylinder(at))
+        return;
+    const crease_model cylinder = at->fitter->trial;
+    compare(at);
+    if (at->level < CREASE_LEVEL_SOLIDS)
+        return;
+    try_from(at, &cylinder, CREASE_REGION_CONE);
+    try_primitive(at, true);
+}
+
+static void try_solids(choice *at)
+{
+    crease_fitter *const fitter = at->fitter;
+    try_primitive(at, crease_guess_cone(at->sample, &fitter->trial));
+    if (fitter->best.chi > 0.95 || fitter->best.type == CREASE_REGION_FREEFORM)
+        try_primitive(at, crease_guess_torus(at->sample, &fitter->trial));
+    const double count = (double)at->sample->count;
+    for (int degree = 3; degree <= CREASE_PATCH_DEGREE; degree++)
+        if (at->rule != CREASE_RULE_GROWING && count >= 5.0 * degree * degree &&
+            fitter->best.chi * count > 2.0 * at->log_count &&
+            crease_fit_polynomial(fitter, at->sample, degree, &fitter->trial))
+            compare(at);
+}
+
+/* Splines from few spans upwards, around those of the warm model, until they no longer pay. */
+static void try_splines(choice *at)
+{
+    crease_fitter *const fitter = at->fitter;
+    const bool warm =
+        at->warm && at->warm->type == CREASE_REGION_FREEFORM && at->warm->patch.spline;
+    const int low = warm && at->warm->patch.spans > 4 ? at->warm->patch.spans - 2 : 3;
+    const int wanted = warm ? at->warm->patch.spans + 4 : 6;
+    const int high = wanted < CREASE_PATCH_SPANS ? wanted : CREASE_PATCH_SPANS;
+    const double count = (double)at->sample->count;
+    for (int spans = low; spans <= high; spans += spans < 4 ? 1 : 2) {
+        const double coefficients = (spans + 3) * (spans + 3), chi = fitter->best.chi;
+        const bool exact = chi * count < 0.5 * count + 2.0 * at->log_count && chi < 0.2;
+        if (exact || 3.0 * coefficients >= count ||
+            !crease_fit_spline(fitter, at->sample, spans, &fitter->trial))
+            break;
+        compare(at);
+        const crease_model *const best = &fitter->best;
+        const bool spline = best->type == CREASE_REGION_FREEFORM && best->patch.spline;
+        if (spline ? best->patch.spans < spans - 2 : spans > 4 && best->chi < 1.3)
+            break;
+    }
+}
+
+static bool finish(choice *at)
+{
+    shift(&at->fitter->best, at->sample->origin, 1.0);
+    return at->fitter->best.cost < INFINITY;
+}
+
+bool crease_fit_choose(crease_fitter *fitter, const crease_sample *sample, crease_fit_rule rule,
+    crease_fit_level level, const crease_model *warm)
+{
+    choice at = {.fitter = fitter, .sample = sample, .rule = rule, .level = level, .warm = warm};
+    begin(&at);
+    if (!crease_fit_plane(fitter, sample, &fitter->trial))
+        return false;
+    compare(&at);
+    const double exact = exact_share * (double)sample->count + 4.0 * at.log_count;
+    if (level >= CREASE_LEVEL_QUADRATIC && fitter->best.cost > exact) {
+        try_quadratic(&at, 10);
+        if (at.has_quadratic)
+            compare(&at);
+        if (level >= CREASE_LEVEL_ROUND)
+            try_round(&at);
+        if (level >= CREASE_LEVEL_SOLIDS)
+            try_solids(&at);
+        if (level >= CREASE_LEVEL_ALL && rule != CREASE_RULE_GROWING)
+            try_splines(&at);
+    }
+    return finish(&at);
+}
+
+bool crease_fit_kind(crease_fitter *fitter, const crease_sample *sample, crease_region_type type,
+    const crease_model *warm)
+{
+    choice at = {.fitter = fitter, .sample = sample, .rule = CREASE_RULE_BAYES, .warm = warm};
+    begin(&at);
+    if (sample->count < 8)
+        return false;
+    switch (type) {
+    case CREASE_REGION_PLANE:
+        if (crease_fit_plane(fitter, sample, &fitter->trial))
+            compare(&at);
+        break;
+    case CREASE_REGION_SPHERE:
+        try_primitive(&at, crease_guess_sphere(sample, &fitter->trial));
+        break;
+    case CREASE_REGION_CYLINDER:
+        try_quadratic(&at, 12);
+        if (better_cylinder(&at))
+            compare(&at);
+        if (warm && warm->type == CREASE_REGION_CYLINDER)
+            try_warm(&at);
+        break;
+    case CREASE_REGION_CONE:
+        try_primitive(&at, crease_guess_cone(sample, &fitter->trial));
+        break;
+    case CREASE_REGION_TORUS:
+        try_primitive(&at, crease_guess_torus(sample, &fitter->trial));
+        break;
+    case CREASE_REGION_FREEFORM:
+        try_quadratic(&at, 12);
+        if (at.has_quadratic)
+            compare(&at);
+        break;
+    }
+    return finish(&at);
+}

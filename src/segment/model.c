@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+#include "segment/model.h"
+
+#include "base/memory.h"
+#include "base/vector.h"
+#include "segment/patch.h"
+#include "segment/primitive.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Distance along z times the cosine of the slope. */
+static double height_distance(const crease_model *model, const double place[3], double gradient[3])
+{
+    double d[3], slope[2];
+    for (int c = 0; c < 3; c++)
+        d[c] = place[c] - model->centre[c];
+    const double *const axes = model->axes;
+    const double x = crease_vector_dot(d, axes), y = crease_vector_dot(d, axes + 3);
+    const double z = crease_vector_dot(d, axes + 6);
+    const double height = crease_patch_at(&model->patch, x, y, slope);
+    const double cosine = 1.0 / sqrt(1.0 + slope[0] * slope[0] + slope[1] * slope[1]);
+    for (int c = 0; c < 3; c++)
+        gradient[c] = cosine * (axes[6 + c] - slope[0] * axes[c] - slope[1] * axes[3 + c]);
+    return cosine * (z - height);
+}
+
+double crease_model_distance(const crease_model *model, const double place[3], double gradient[3])
+{
+    return model->type == CREASE_REGION_FREEFORM
+        ? height_distance(model, place, gradient)
+        : crease_primitive_distance(model, place, gradient);
+}
+
+double crease_model_variance(const crease_model *model, const double place[3])
+{
+    if (model->type == CREASE_REGION_FREEFORM)
+        return model->leverage;
+    double gradient[3], change[CREASE_PRIMITIVE_PARAMETERS], variance = 0.0;
+    const double distance = crease_primitive_distance(model, place, gradient);
+    crease_primitive_derivatives(model, place, distance, gradient, model->pivot, change);
+    const double *entry = model->covariance;
+    for (int r = 0; r < CREASE_PRIMITIVE_PARAMETERS; r++)
+        for (int c = 0; c <= r; c++)
+            variance += *entry++ * change[r] * change[c] * (r == c ? 1.0 : 2.0);
+    return fmax(variance, 0.0);
+}
+
+crease_status crease_model_copy(
+    crease_context *context, const crease_model *model, crease_model *out)
+{
+    *out = *model;
+    out->patch.coefficients = NULL;
+    if (model->type != CREASE_REGION_FREEFORM)
+        return CREASE_OK;
+    out->patch.coefficients = crease_duplicate(context, model->patch.coefficients,
+        model->patch.coefficient_count, sizeof *model->patch.coefficients);
+    return out->patch.coefficients ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+}
+
+void crease_model_clear(crease_model *model)
+{
+    free(model->patch.coefficients);
+    model->patch.coefficients = NULL;
+}
