@@ -8,7 +8,7 @@ PREFIX ?= /usr/local
 build:
 	@tools/install-dependencies build
 	@cmake -S . -B build -DCREASE_TESTS=OFF -DCMAKE_INSTALL_PREFIX=$(PREFIX) >/dev/null
-	@cmake --build build -j $(JOBS)
+	@cmake --build build -j $(JOBS) -- --no-print-directory
 
 demo: build
 	@tools/demo build/crease demo
@@ -16,7 +16,7 @@ demo: build
 test:
 	@tools/install-dependencies test
 	@cmake -S . -B build -DCREASE_TESTS=ON >/dev/null
-	@cmake --build build -j $(JOBS)
+	@cmake --build build -j $(JOBS) -- --no-print-directory
 	@cd build && ctest --output-on-failure -j $(JOBS)
 
 install: build
