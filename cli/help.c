@@ -146,7 +146,7 @@ static void man_option(FILE *to, const option *o)
 void help_man(FILE *to)
 {
     fprintf(to,
-        ".TH CREASE 1 \"\" \"crease %s\" \"User Commands\"\n.SH NAME\n"
+        ".TH CREASE 1 \"" CREASE_DATE "\" \"crease %s\" \"User Commands\"\n.SH NAME\n"
         "crease \\- point clouds to B\\-spline surfaces and CAD models with sharp edges kept\n"
         ".SH SYNOPSIS\n",
         crease_version());
