@@ -13,6 +13,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* A larger net would hide in a figure what it surrounds; on the page it can be switched off. */
+enum { MOST_NET_IN_FIGURE = 100 };
 enum { ALLOWED = TARGET_CAD | TARGET_MESH | TARGET_FIGURE | TARGET_PAGE | TARGET_REPORT };
 
 /* What the fit has brought: everything that is written. */
@@ -200,19 +202,21 @@ static crease_status write_seen(
     crease_context *context, const settings *s, const result *all, const char *path)
 {
     const crease_surface *whole = crease_sheet_surface(all->sheet);
+    const crease_surface_parts parts = crease_surface_parts_of(whole);
+    const bool page = target_of(path, ALLOWED) == TARGET_PAGE;
+    const bool net = page || parts.count[0] * parts.count[1] <= MOST_NET_IN_FIGURE;
     crease_scene *scene = NULL;
     crease_status status = crease_scene_create(context, target_name(s->inputs[0]), &scene);
     if (status == CREASE_OK)
         status = crease_scene_add_cloud(context, scene, "points", all->cloud);
     if (status == CREASE_OK)
-        status = crease_scene_add_surfaces(context, scene, "surface", &whole, 1, true);
+        status = crease_scene_add_surfaces(context, scene, "surface", &whole, 1, net);
     if (status == CREASE_OK)
         status = crease_scene_add_curves(
             context, scene, "creases", (const crease_curve *const *)all->lines, all->line_count);
     if (status == CREASE_OK)
-        status = target_of(path, ALLOWED) == TARGET_PAGE
-            ? crease_page_write(context, scene, path)
-            : crease_figure_write(context, scene, NULL, path);
+        status = page ? crease_page_write(context, scene, path)
+                      : crease_figure_write(context, scene, NULL, path);
     crease_scene_free(scene);
     return status;
 }
