@@ -168,6 +168,31 @@ static void first_guess(
     guess(w, mean, direction, fmax(w->least, sqrt(fmax(0.0, variance))), offsets[g / DIRECTIONS]);
 }
 
+/* From every guess. Of the pairs of planes about as near to the points as the nearest pair, the one
+ * whose narrower set of points is widest: a plane through a single row of points fits anything.
+ * Returns its mean distance; infinite when every pair has a plane that is not determined. */
+static double settle_all(work *w, const double mean[3], const double values[3],
+    const double axes[9], double same, crease_twoplane *out)
+{
+    crease_twoplane planes[DIRECTIONS * OFFSETS];
+    double reached[DIRECTIONS * OFFSETS], narrowest[DIRECTIONS * OFFSETS], least = INFINITY;
+    for (int g = 0; g < DIRECTIONS * OFFSETS; g++) {
+        first_guess(w, g, mean, values, axes);
+        reached[g] = settle(w, &planes[g]);
+        narrowest[g] = w->narrowest;
+        if (narrowest[g] > 4.0 * w->spacing * w->spacing)
+            least = fmin(least, reached[g]);
+    }
+    double widest = 4.0 * w->spacing * w->spacing, taken = INFINITY;
+    for (int g = 0; g < DIRECTIONS * OFFSETS; g++)
+        if (reached[g] <= 2.0 * least + same && narrowest[g] > 1.01 * widest) {
+            widest = narrowest[g];
+            taken = reached[g];
+            *out = planes[g];
+        }
+    return taken;
+}
+
 bool crease_twoplane_fit(const double *points, size_t count, double *scratch, crease_twoplane *out)
 {
     double mean[3], values[3], axes[9];
@@ -180,20 +205,7 @@ bool crease_twoplane_fit(const double *points, size_t count, double *scratch, cr
         .sorted = scratch + 3 * count,
         .least = fmax(DBL_MIN, 1e-12 * extent),
         .spacing = 0.08 * extent / sqrt((double)count)};
-    double best = INFINITY, widest = 4.0 * w.spacing * w.spacing;
-    const double same = 1e-9 * extent;
-    for (int g = 0; g < DIRECTIONS * OFFSETS; g++) {
-        crease_twoplane planes;
-        first_guess(&w, g, mean, values, axes);
-        const double reached = settle(&w, &planes);
-        const bool nearer = reached + same < (g < DIRECTIONS ? 1.0 : LEAST_GAIN) * best;
-        const bool wider = reached < best + same && w.narrowest > 1.01 * widest;
-        if (w.narrowest > 4.0 * w.spacing * w.spacing && (nearer || wider)) {
-            best = reached;
-            widest = w.narrowest;
-            *out = planes;
-        }
-    }
+    const double best = settle_all(&w, mean, values, axes, 1e-9 * extent, out);
     const double one = mean_distance_to_one(points, count, mean, axes);
     return best < LEAST_GAIN * one && one > 1e-12 * extent && meet(out, mean, extent);
 }
