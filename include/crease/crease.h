@@ -4,8 +4,8 @@
 /** @file crease.h
  * The whole C interface of libcrease, in the order of the pipeline:
  *
- *   context -> cloud -> neighbours -> noise -> scores -> regions -> splines -> sheets -> files and
- *   figures
+ *   context -> cloud -> neighbours -> noise -> scores -> regions -> splines -> creases -> sheets
+ *   -> files and figures
  *
  * Manners, the same everywhere:
  *  - A function that can fail returns a crease_status; its result is the last argument and is set
@@ -451,6 +451,60 @@ typedef struct crease_foot {
 CREASE_API crease_status crease_surface_project(crease_context *context,
     const crease_surface *surface, const double *points, size_t count, crease_foot *feet);
 
+/* ----------------------------------------------------------------------------------- creases -- */
+
+/** The creases of a cloud: the curves in which its smooth regions meet at an angle, joined in
+ * corners. */
+typedef struct crease_network crease_network;
+
+typedef struct crease_network_options {
+    double least_turn; /**< a crease turns the surface by at least this: 180 less the dihedral
+                          angle, 1..90 degrees; default 10 */
+    double reach;      /**< features are the points within this many spacings of a crease, above 0,
+                            at most 100; default 1 */
+} crease_network_options;
+
+/** What one crease is. */
+typedef struct crease_network_crease {
+    uint32_t regions[2];   /**< numbers of the regions that meet in it, ascending */
+    int32_t corners[2];    /**< numbers of the corners at its ends; -1: it fades out, leaves the
+                                points, or is closed */
+    bool closed;           /**< its end is its beginning */
+    double length;         /**< nearly the domain of the curve, too: 0..length */
+    double angle;          /**< mean dihedral angle of the regions: 180 = flat */
+    double angle_error;    /**< its standard error */
+    double position_error; /**< standard error of the curve's place, across it */
+} crease_network_crease;
+
+/** Where creases end together, or one at a third region. */
+typedef struct crease_corner {
+    double position[3];
+    uint32_t valence; /**< how many ends of creases; 3 or more at a corner of a solid */
+} crease_corner;
+
+CREASE_API crease_network_options crease_network_options_default(void);
+/** Finds where the surfaces of neighbouring regions intersect, as far as points of both support it:
+ * borders of an open cloud are no creases, nor are the seams of smoothly joined regions, and a
+ * crease ends where it fades out. Deterministic. O(n log n); 70 bytes of memory for each point,
+ * most of them for the tree of the points. Errors: ARGUMENT, NO_MEMORY, NUMERIC, CANCELLED. */
+CREASE_API crease_status crease_network_find(crease_context *context, const crease_regions *regions,
+    const crease_network_options *options, crease_network **out);
+CREASE_API void crease_network_free(crease_network *network);
+/** Number of creases. */
+CREASE_API size_t crease_network_count(const crease_network *network);
+/** Crease number index, below the count. */
+CREASE_API crease_network_crease crease_network_at(const crease_network *network, size_t index);
+/** A cubic curve for each crease, twice differentiable, within 0.01 spacings of the intersection.
+ * Creases that share a corner end there exactly. */
+CREASE_API const crease_curve *const *crease_network_curves(const crease_network *network);
+CREASE_API size_t crease_network_corner_count(const crease_network *network);
+CREASE_API crease_corner crease_network_corner(const crease_network *network, size_t index);
+CREASE_API size_t crease_network_point_count(const crease_network *network);
+/** For every point 1 where it is within reach of a crease, else 0. */
+CREASE_API const uint8_t *crease_network_features(const crease_network *network);
+/** Mean spacing of the points away from creases and borders: the unit of the reach. */
+CREASE_API double crease_network_spacing(const crease_network *network);
+
 /* ------------------------------------------------------------------------------------ sheets -- */
 
 /** One tensor-product surface fitted to a cloud, with its creases. */
@@ -589,6 +643,13 @@ CREASE_API crease_status crease_mesh_write(
  */
 CREASE_API crease_status crease_curves_write(crease_context *context,
     const crease_curve *const *curves, size_t count, double tolerance, const char *path);
+
+/** Writes creases as polylines within 0.02 spacings of their curves, in the formats of
+ * crease_curves_write(). In PLY and OBJ creases share the vertex of their corner, and only corners
+ * have more than two lines; CSV says region_1, region_2, closed, angle, angle_error and
+ * position_error of each point's crease, too. Errors: as there. */
+CREASE_API crease_status crease_network_write(
+    crease_context *context, const crease_network *network, const char *path);
 
 /* ----------------------------------------------------------------------------------- seeing -- */
 

@@ -4,6 +4,7 @@
 /* Curves as polylines. Each span of a curve is divided so that its chords stay within the
  * tolerance: a chord over a step h of the parameter deviates by at most h^2 |C''| / 8. Ends of
  * curves that meet are one vertex. */
+#include "write/curves.h"
 #include "base/memory.h"
 #include "base/vector.h"
 #include "spline/bezier.h"
@@ -27,6 +28,7 @@ typedef struct polylines {
     double *points;   /* x 3 */
     uint32_t *number; /* for each point */
     size_t vertex_count;
+    const crease_curve_columns *columns;
 } polylines;
 
 /* ------------------------------------------------------------------------------- dividing -- */
@@ -251,11 +253,19 @@ static void write_obj(crease_output *output, const polylines *lines)
 
 static void write_csv(crease_output *output, const polylines *lines)
 {
-    crease_output_text(output, "crease,x,y,z\n");
+    const crease_curve_columns *const columns = lines->columns;
+    crease_output_text(output, "crease,x,y,z");
+    for (size_t c = 0; c < columns->count; c++)
+        crease_output_format(output, ",%s", columns->names[c]);
+    crease_output_text(output, "\n");
     for (size_t curve = 0; curve < lines->count; curve++)
         for (size_t i = lines->first[curve]; i < lines->first[curve + 1]; i++) {
             crease_output_format(output, "%zu,", curve);
             write_place(output, lines->points + 3 * i, ",");
+            for (size_t c = 0; c < columns->count; c++) {
+                crease_output_text(output, ",");
+                crease_output_double(output, columns->values[curve * columns->count + c]);
+            }
             crease_output_text(output, "\n");
         }
 }
@@ -293,11 +303,19 @@ static crease_status make_polylines(crease_context *context, const crease_curve 
 crease_status crease_curves_write(crease_context *context, const crease_curve *const *curves,
     size_t count, double tolerance, const char *path)
 {
+    static const crease_curve_columns none = {0, NULL, NULL};
+    return crease_curves_write_columns(context, curves, count, tolerance, &none, path);
+}
+
+crease_status crease_curves_write_columns(crease_context *context,
+    const crease_curve *const *curves, size_t count, double tolerance,
+    const crease_curve_columns *columns, const char *path)
+{
     static void (*const writers[FORMAT_COUNT])(crease_output *, const polylines *) = {
         write_ply, write_obj, write_csv};
     size_t format = 0;
     crease_output *output = NULL;
-    polylines lines = {.count = 0};
+    polylines lines = {.columns = columns};
     if (!(tolerance >= 0.0))
         return crease_fail(context, CREASE_ERROR_ARGUMENT,
             "curves: the tolerance is %g; give a length, or 0 for the default", tolerance);
