@@ -93,8 +93,9 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The range of sorted values: all of them, unless a few spread it to more than three times. */
-static crease_range range_of_sorted(const double *values, size_t count)
+/* The range of sorted values: all of them, unless a few spread it to more than three times. Values
+ * of both signs have a middle, but not numbers of things. */
+static crease_range range_of_sorted(const double *values, size_t count, bool numbers)
 {
     crease_range range = {.lowest = 0, .highest = 1, .map = CREASE_MAP_SEQUENTIAL};
     if (count == 0)
@@ -105,7 +106,7 @@ static crease_range range_of_sorted(const double *values, size_t count)
     const bool cuts = high > low && highest - lowest > 3 * (high - low);
     range.lowest = cuts ? low : lowest;
     range.highest = cuts ? high : highest;
-    if (range.lowest < 0 && range.highest > 0) {
+    if (range.lowest < 0 && range.highest > 0 && !numbers) {
         range.map = CREASE_MAP_DIVERGING;
         range.highest = fmax(range.highest, -range.lowest);
         range.lowest = -range.highest;
@@ -130,7 +131,7 @@ crease_status crease_range_of_field(
             values[finite++] = value;
     }
     qsort(values, finite, sizeof *values, ascending);
-    *out = range_of_sorted(values, finite);
+    *out = range_of_sorted(values, finite, field->type < CREASE_TYPE_FLOAT32);
     free(values);
     return CREASE_OK;
 }
