@@ -1,44 +1,178 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* crease detect: which points lie on sharp edges. */
+/* crease detect: the sharp edges of a cloud, as curves and as labels of its points. */
 #include "command.h"
 #include "input.h"
 #include "target.h"
 
-enum { ALLOWED = TARGET_CLOUD | TARGET_FIGURE | TARGET_PAGE | TARGET_REPORT };
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
-static crease_status labelled(crease_context *context, const crease_cloud *cloud,
-    const crease_scores *scores, crease_cloud **out)
+enum { ALLOWED = TARGET_CLOUD | TARGET_FIGURE | TARGET_PAGE | TARGET_REPORT, TYPES = 6 };
+
+typedef struct result {
+    crease_scores *scores;
+    crease_regions *regions;
+    crease_network *network;
+    crease_cloud *cloud; /* with the fields */
+} result;
+
+static void result_free(result *all)
 {
-    const crease_field fields[] = {
-        {"variance", CREASE_TYPE_FLOAT64, crease_scores_variance(scores)},
-        {"feature", CREASE_TYPE_UINT8, crease_scores_features(scores)},
-    };
-    return crease_cloud_with_fields(context, cloud, fields, 2, out);
+    crease_cloud_free(all->cloud);
+    crease_network_free(all->network);
+    crease_regions_free(all->regions);
+    crease_scores_free(all->scores);
 }
 
-static void describe(report *r, const crease_scores *scores)
+/* ---------------------------------------------------------------------------------- finding -- */
+
+/* The cloud with its labels: the variance as single numbers, which is all they are good for. */
+static crease_status label(crease_context *context, const crease_cloud *cloud, result *all)
 {
-    const size_t count = crease_scores_count(scores);
-    const uint8_t *features = crease_scores_features(scores);
+    const size_t count = crease_cloud_count(cloud);
+    float *variance = malloc((count ? count : 1) * sizeof *variance);
+    if (!variance)
+        return crease_context_fail(context, CREASE_ERROR_NO_MEMORY,
+            "memory ran out: %zu numbers are not to be had; use fewer points", count);
+    for (size_t i = 0; i < count; i++)
+        variance[i] = (float)crease_scores_variance(all->scores)[i];
+    const crease_field fields[] = {
+        {"variance", CREASE_TYPE_FLOAT32, variance},
+        {"feature", CREASE_TYPE_UINT8, crease_network_features(all->network)},
+        {"region", CREASE_TYPE_INT32, crease_regions_labels(all->regions)},
+    };
+    const crease_status status = crease_cloud_with_fields(context, cloud, fields, 3, &all->cloud);
+    free(variance);
+    return status;
+}
+
+static crease_status find(
+    crease_context *context, const settings *s, report *r, const crease_cloud *cloud, result *all)
+{
+    crease_status status = crease_scores_compute(context, cloud, &s->detect, &all->scores);
+    if (status != CREASE_OK)
+        return status;
+    report_stage(r, "scores");
+    status = crease_regions_find(context, cloud, NULL, &all->regions);
+    if (status != CREASE_OK)
+        return status;
+    report_stage(r, "regions");
+    status = crease_network_find(context, all->regions, NULL, &all->network);
+    if (status != CREASE_OK)
+        return status;
+    report_stage(r, "creases");
+    return label(context, cloud, all);
+}
+
+/* --------------------------------------------------------------------------------- telling -- */
+
+static void describe_regions(report *r, const crease_regions *regions)
+{
+    static const char *const names[TYPES] = {
+        "planes", "spheres", "cylinders", "cones", "tori", "free_forms"};
+    static const char *const words[TYPES][2] = {{"plane", "planes"}, {"sphere", "spheres"},
+        {"cylinder", "cylinders"}, {"cone", "cones"}, {"torus", "tori"},
+        {"free form", "free forms"}};
+    size_t counts[TYPES] = {0}, outliers = 0, used = 0;
+    char text[160] = "";
+    for (size_t i = 0; i < crease_regions_count(regions); i++)
+        counts[crease_regions_at(regions, i).type]++;
+    for (size_t i = 0; i < crease_regions_point_count(regions); i++)
+        outliers += crease_regions_labels(regions)[i] < 0;
+    cJSON *object = cJSON_AddObjectToObject(r->root, "regions");
+    cJSON_AddNumberToObject(object, "count", (double)crease_regions_count(regions));
+    for (int i = 0; i < TYPES; i++) {
+        cJSON_AddNumberToObject(object, names[i], (double)counts[i]);
+        if (counts[i] > 0)
+            used += (size_t)snprintf(text + used, sizeof text - used, "%s%zu %s", used ? ", " : "",
+                counts[i], words[i][counts[i] > 1]);
+    }
+    cJSON_AddNumberToObject(object, "outliers", (double)outliers);
+    cJSON_AddNumberToObject(r->root, "noise", crease_regions_sigma(regions));
+    report_line(r, "smooth regions: %s; outliers: %zu; noise %.2g", used ? text : "none", outliers,
+        crease_regions_sigma(regions));
+}
+
+static cJSON *crease_object(crease_network_crease crease)
+{
+    cJSON *object = cJSON_CreateObject();
+    const double regions[2] = {crease.regions[0], crease.regions[1]};
+    const double corners[2] = {crease.corners[0], crease.corners[1]};
+    cJSON_AddItemToObject(object, "regions", cJSON_CreateDoubleArray(regions, 2));
+    cJSON_AddItemToObject(object, "corners", cJSON_CreateDoubleArray(corners, 2));
+    cJSON_AddBoolToObject(object, "closed", crease.closed);
+    cJSON_AddNumberToObject(object, "length", crease.length);
+    cJSON_AddNumberToObject(object, "angle", crease.angle);
+    cJSON_AddNumberToObject(object, "angle_error", crease.angle_error);
+    cJSON_AddNumberToObject(object, "position_error", crease.position_error);
+    return object;
+}
+
+static void describe_corners(report *r, const crease_network *network)
+{
+    cJSON *list = cJSON_AddArrayToObject(r->root, "corners");
+    for (size_t i = 0; i < crease_network_corner_count(network); i++) {
+        const crease_corner corner = crease_network_corner(network, i);
+        cJSON *object = cJSON_CreateObject();
+        report_vector(object, "position", corner.position);
+        cJSON_AddNumberToObject(object, "valence", corner.valence);
+        cJSON_AddItemToArray(list, object);
+    }
+}
+
+static void describe_network(report *r, const crease_network *network)
+{
+    const size_t count = crease_network_count(network);
+    const size_t corners = crease_network_corner_count(network);
+    double length = 0, least = INFINITY, most = 0;
+    cJSON *list = cJSON_AddArrayToObject(r->root, "creases");
+    for (size_t i = 0; i < count; i++) {
+        const crease_network_crease crease = crease_network_at(network, i);
+        cJSON_AddItemToArray(list, crease_object(crease));
+        length += crease.length;
+        least = fmin(least, crease.angle);
+        most = fmax(most, crease.angle);
+    }
+    describe_corners(r, network);
+    if (count > 0)
+        report_line(r,
+            "creases: %zu, length %.4g in all, dihedral angles %.1f to %.1f degrees; corners: %zu",
+            count, length, least, most, corners);
+    else
+        report_line(r, "creases: none");
+}
+
+static void describe_features(report *r, const crease_network *network)
+{
+    const size_t count = crease_network_point_count(network);
+    const uint8_t *features = crease_network_features(network);
     size_t found = 0;
     for (size_t i = 0; i < count; i++)
         found += features[i];
     cJSON_AddNumberToObject(r->root, "features", (double)found);
-    report_line(r, "%zu of %zu points lie on sharp edges (%.1f %%)", found, count,
-        count ? 100.0 * (double)found / (double)count : 0.0);
+    cJSON_AddNumberToObject(r->root, "spacing", crease_network_spacing(network));
+    report_line(r, "%zu of %zu points lie on sharp edges (%.1f %%), within the spacing of %.4g",
+        found, count, count ? 100.0 * (double)found / (double)count : 0.0,
+        crease_network_spacing(network));
 }
 
+/* --------------------------------------------------------------------------------- writing -- */
+
 static crease_status write_seen(
-    crease_context *context, const settings *s, const crease_cloud *cloud, const char *path)
+    crease_context *context, const settings *s, const result *all, const char *path)
 {
     crease_scene *scene = NULL;
     crease_figure_options figure = crease_figure_options_default();
-    figure.colour_by = "feature";
+    figure.colour_by = "region";
     crease_status status = crease_scene_create(context, target_name(s->inputs[0]), &scene);
     if (status == CREASE_OK)
-        status = crease_scene_add_cloud(context, scene, "points", cloud);
+        status = crease_scene_add_cloud(context, scene, "points", all->cloud);
+    if (status == CREASE_OK)
+        status = crease_scene_add_curves(context, scene, "creases",
+            crease_network_curves(all->network), crease_network_count(all->network));
     if (status == CREASE_OK)
         status = target_of(path, ALLOWED) == TARGET_PAGE
             ? crease_page_write(context, scene, path)
@@ -48,45 +182,49 @@ static crease_status write_seen(
 }
 
 static crease_status write_outputs(
-    crease_context *context, const settings *s, report *r, const crease_cloud *cloud)
+    crease_context *context, const settings *s, report *r, const result *all)
 {
     crease_status status = CREASE_OK;
     for (size_t i = 0; i < s->output_count && status == CREASE_OK; i++) {
         const char *path = s->outputs[i];
         const target_kind kind = target_of(path, ALLOWED);
         if (kind == TARGET_CLOUD)
-            status = crease_cloud_write(context, cloud, path);
+            status = crease_cloud_write(context, all->cloud, path);
         else if (kind == TARGET_REPORT)
             status = target_write_report(context, r, path);
         else
-            status = write_seen(context, s, cloud, path);
+            status = write_seen(context, s, all, path);
         if (status == CREASE_OK)
             report_line(r, "wrote %s", path);
     }
+    if (status == CREASE_OK && s->creases)
+        status = crease_network_write(context, all->network, s->creases);
+    if (status == CREASE_OK && s->creases)
+        report_line(r, "wrote %s", s->creases);
     report_stage(r, "write");
     return status == CREASE_OK ? target_write_report(context, r, s->report) : status;
 }
 
 crease_status detect_run(crease_context *context, const settings *s, report *r)
 {
-    crease_cloud *cloud = NULL, *result = NULL;
-    crease_scores *scores = NULL;
+    crease_cloud *cloud = NULL;
+    result all = {0};
     crease_status status = targets_check(context, s, ALLOWED);
+    if (status == CREASE_OK)
+        status = target_check(context, s->creases, TARGET_LINES);
     if (status == CREASE_OK)
         status = target_check(context, s->report, TARGET_REPORT);
     if (status == CREASE_OK)
         status = input_read(context, s, r, &cloud);
     if (status == CREASE_OK)
-        status = crease_scores_compute(context, cloud, &s->detect, &scores);
+        status = find(context, s, r, cloud, &all);
     if (status == CREASE_OK) {
-        report_stage(r, "scores");
-        describe(r, scores);
-        status = labelled(context, cloud, scores, &result);
+        describe_regions(r, all.regions);
+        describe_network(r, all.network);
+        describe_features(r, all.network);
+        status = write_outputs(context, s, r, &all);
     }
-    if (status == CREASE_OK)
-        status = write_outputs(context, s, r, result);
-    crease_cloud_free(result);
-    crease_scores_free(scores);
+    result_free(&all);
     crease_cloud_free(cloud);
     return status;
 }

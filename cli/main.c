@@ -10,14 +10,14 @@
 #include <string.h>
 
 const command commands[] = {
-    {"detect", FOR_DETECT, "detect CLOUD -o FILE [OPTIONS]", "find the points on sharp edges",
-        "Scores every point of a cloud by the bootstrap variance of its normal and tells which "
-        "points lie on sharp edges.\n\n"
+    {"detect", FOR_DETECT, "detect CLOUD -o FILE [OPTIONS]", "find the sharp edges of a cloud",
+        "Finds the smooth regions of a cloud, the creases in which they meet at an angle, and the "
+        "points that lie on them. Nothing needs to be set.\n\n"
         "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL or OFF file; - is standard input.\n"
         "What FILE gets depends on its extension: .ply .xyz .txt .csv .asc .pts the cloud with the "
-        "fields "
-        "`variance` and `feature`, all points in their order; .png .svg .pdf a figure; .html a "
-        "page to turn and pick points in; .json the report.",
+        "fields `variance` (bootstrap variance of the normal), `feature` (1 on a sharp edge) and "
+        "`region` (number of the smooth region, -1 for outliers), all points in their order; .png "
+        ".svg .pdf a figure; .html a page to turn and pick points in; .json the report.",
         detect_run},
     {"fit", FOR_FIT, "fit CLOUD -o FILE [OPTIONS]", "fit a surface that keeps its sharp edges",
         "Fits a bicubic B-spline surface to a cloud that is a height field in some direction, "

@@ -16,7 +16,7 @@ static const char *const orientation_names[] = {"automatic", "none", NULL};
 const option option_table[] = {
     {"output", 'o', OPTION_OUTPUT, "FILE", FOR_DETECT | FOR_FIT | FOR_EXAMPLE | FOR_REPRODUCE, 0, 0,
         0, NULL, "what to write; may be given several times, the extension says what", "nothing"},
-    {"creases", 0, OPTION_PATH, "FILE", FOR_FIT, AT(creases), 0, 0, NULL,
+    {"creases", 0, OPTION_PATH, "FILE", FOR_DETECT | FOR_FIT, AT(creases), 0, 0, NULL,
         "write the creases as lines: .ply, .obj or .csv", "not written"},
     {"points", 0, OPTION_PATH, "FILE", FOR_FIT, AT(points), 0, 0, NULL,
         "write the cloud projected onto the surface, with the field `deviation`: .ply, .xyz, .csv, "
@@ -32,8 +32,6 @@ const option option_table[] = {
         NULL, "neighbours of a point in the bootstrap, itself included", NULL},
     {"resamples", 'B', OPTION_INTEGER, "B", FOR_DETECT | FOR_FIT, AT(detect.resamples), 2, 10000,
         NULL, "bootstrap resamples of each neighbourhood", NULL},
-    {"false-discovery-rate", 0, OPTION_REAL, "Q", FOR_DETECT, AT(detect.false_discovery_rate), 0, 1,
-        NULL, "expected share of wrong features among those found", NULL},
     {"net", 'n', OPTION_NET, "MxN", FOR_FIT, AT(net), 4, 4096, NULL,
         "control points across and along the edge",
         "6x6 for averaging, as many as the data ask for with sheet"},

@@ -10,17 +10,40 @@ expect 2 "no example" example teapot -o teapot.ply
 expect 2 "takes neither" example cube --noise 1 -o cube2.ply
 
 # --- detect
-expect 0 "lie on sharp edges" detect cube.ply -o edge.ply -o edge.csv -o edge.png --report edge.json
+golden detect_cube.txt detect cube.ply -o edge.ply -o edge.csv -o edge.png -o edge.html \
+    --creases edges.ply --report edge.json
+golden detect_panel.txt detect panel.ply --creases panel.csv
 expect 0 "field feature: 0 to 1" info edge.ply
+expect 0 "field region: 0 to 5" info edge.ply
 check "every point comes back in its order" python3 -c '
 rows = [line.split(",") for line in open("edge.csv").read().split("\n")[1:] if line]
 assert len(rows) == 6146
 for r in rows:
-    x, y, z, feature = float(r[0]), float(r[1]), float(r[2]), int(float(r[-1]))
+    x, y, z, feature = float(r[0]), float(r[1]), float(r[2]), int(float(r[-2]))
     on = sum(min(v, 1 - v) < 1e-9 for v in (x, y, z)) >= 2
     far = sum(min(v, 1 - v) < 0.1 for v in (x, y, z)) == 1
     assert not on or feature == 1, r
     assert not far or feature == 0, r'
+check "the report tells the twelve edges of the cube" python3 -c '
+import json
+r = json.load(open("edge.json"))
+assert r["regions"]["count"] == r["regions"]["planes"] == 6 and r["regions"]["outliers"] == 0
+assert len(r["creases"]) == 12 and len(r["corners"]) == 8
+for c in r["creases"]:
+    assert abs(c["angle"] - 90) < 0.01 and abs(c["length"] - 1) < 0.001 and not c["closed"], c
+    assert 0 < c["position_error"] < 0.01 and 0 < c["angle_error"] < 1, c
+    assert all(0 <= k < 8 for k in c["corners"]), c
+for c in r["corners"]:
+    assert c["valence"] == 3 and all(min(abs(v), abs(v - 1)) < 0.001 for v in c["position"]), c
+assert abs(r["spacing"] * 32 - 1) < 0.05 and {"scores", "regions", "creases"} <= set(r["seconds"])'
+check "the creases share their corners" python3 -c '
+data = open("edges.ply", "rb").read()
+head, body = data.split(b"end_header\n", 1)
+count = {w[1]: int(w[2]) for w in (l.split() for l in head.decode().split("\n")) if w[:1] == ["element"]}
+import struct
+edges = struct.unpack_from("<%dI" % (2 * count["edge"]), body, 28 * count["vertex"])
+degrees = [edges.count(v) for v in range(count["vertex"])]
+assert degrees.count(3) == 8 and set(degrees) <= {2, 3}, degrees'
 
 # --- fit, sheet
 expect 0 "2 faces, 1 creases" fit sample.ply -o s.step -o s.igs -o s.brep -o s.obj -o s.stl -o s.ply \
