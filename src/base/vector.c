@@ -7,29 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-double crease_vector_dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-double crease_vector_length(const double a[3])
-{
-    return sqrt(crease_vector_dot(a, a));
-}
-
-double crease_vector_distance(const double a[3], const double b[3])
-{
-    const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-    return crease_vector_length(d);
-}
-
-void crease_vector_cross(const double a[3], const double b[3], double out[3])
-{
-    const double c[3] = {
-        a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    memcpy(out, c, sizeof c);
-}
-
 void crease_vector_normalise(double a[3])
 {
     const double length = crease_vector_length(a);

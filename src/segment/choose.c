@@ -14,13 +14,20 @@
 #include <string.h>
 
 static const double growing_share = 0.25; /* of the points, for kinds richer than a plane */
+static const double least_support = 0.5;  /* of a spline's coefficients that data determine */
 static const double exact_share = 0.01;   /* cost of a point below which nothing richer is tried */
+
+/* Primitives are fitted to so many points first; those that are clearly dearer there than a model
+ * is allowed to be are not fitted to all. */
+enum { SCREEN_POINTS = 160 };
+static const double screen_ratio = 1.3, screen_slack = 20.0;
 
 typedef struct choice {
     crease_fitter *fitter;
     const crease_sample *sample;
     crease_fit_rule rule;
     crease_fit_level level;
+    double limit; /* no dearer model is of use */
     const crease_model *warm;
     crease_model quadratic; /* polynomial of degree 2; its coefficients are the third candidate's */
     bool has_quadratic;
@@ -126,9 +133,41 @@ static void try_from(choice *at, const crease_model *model, crease_region_type t
     trial->patch.coefficients = coefficients;
 }
 
+/* Cost that a further model must be below. */
+static double allowed(const choice *at)
+{
+    return fmin(at->fitter->best.cost, at->limit);
+}
+
+/* Improves the model on trial with a part of the points. False when it is no good there. */
+static bool passes_screen(choice *at)
+{
+    crease_fitter *const fitter = at->fitter;
+    crease_sample *const few = &fitter->screen;
+    const size_t count = at->sample->count;
+    memcpy(few->origin, at->sample->origin, sizeof few->origin);
+    few->count = SCREEN_POINTS;
+    for (size_t i = 0; i < SCREEN_POINTS; i++)
+        memcpy(few->points + 3 * i, at->sample->points + 3 * (i * count / SCREEN_POINTS),
+            3 * sizeof *few->points);
+    if (!crease_fit_primitive(fitter, few, &fitter->trial))
+        return false;
+    const double share = (double)count / SCREEN_POINTS;
+    return share * misfit(&fitter->trial, few, fitter->sigma) <=
+        screen_ratio * allowed(at) + screen_slack;
+}
+
+/* Fits the model on trial, a guess. */
+static bool fit_trial(choice *at)
+{
+    if (at->sample->count > 2 * SCREEN_POINTS && allowed(at) < INFINITY && !passes_screen(at))
+        return false;
+    return crease_fit_primitive(at->fitter, at->sample, &at->fitter->trial);
+}
+
 static void try_primitive(choice *at, bool guessed)
 {
-    if (guessed && crease_fit_primitive(at->fitter, at->sample, &at->fitter->trial))
+    if (guessed && fit_trial(at))
         compare(at);
 }
 
@@ -167,7 +206,7 @@ static bool better_cylinder(choice *at)
         const bool guessed = way == 0
             ? crease_guess_cylinder(at->sample, &fitter->trial)
             : crease_guess_cylinder_along(at->sample, &at->quadratic, &fitter->trial);
-        if (!guessed || !crease_fit_primitive(fitter, at->sample, &fitter->trial))
+        if (!guessed || !fit_trial(at))
             continue;
         rate(at, &fitter->trial);
         if (fitter->trial.cost < best.cost)
@@ -192,6 +231,14 @@ static void try_round(choice *at)
     try_primitive(at, true);
 }
 
+/* Whether a polynomial's parameters alone do not cost too much. */
+static bool is_affordable(const choice *at, int degree)
+{
+    const crease_model parameters = {
+        .type = CREASE_REGION_FREEFORM, .parameter_count = 0.5 * (degree + 1) * (degree + 2)};
+    return surcharge(at, &parameters) < allowed(at);
+}
+
 static void try_solids(choice *at)
 {
     crease_fitter *const fitter = at->fitter;
@@ -201,7 +248,7 @@ static void try_solids(choice *at)
     const double count = (double)at->sample->count;
     for (int degree = 3; degree <= CREASE_PATCH_DEGREE; degree++)
         if (at->rule != CREASE_RULE_GROWING && count >= 5.0 * degree * degree &&
-            fitter->best.chi * count > 2.0 * at->log_count &&
+            fitter->best.chi * count > 2.0 * at->log_count && is_affordable(at, degree) &&
             crease_fit_polynomial(fitter, at->sample, degree, &fitter->trial))
             compare(at);
 }
@@ -218,8 +265,10 @@ static void try_splines(choice *at)
     const double count = (double)at->sample->count;
     for (int spans = low; spans <= high; spans += spans < 4 ? 1 : 2) {
         const double coefficients = (spans + 3) * (spans + 3), chi = fitter->best.chi;
+        const crease_model least = {
+            .type = CREASE_REGION_FREEFORM, .parameter_count = least_support * coefficients};
         const bool exact = chi * count < 0.5 * count + 2.0 * at->log_count && chi < 0.2;
-        if (exact || 3.0 * coefficients >= count ||
+        if (exact || 3.0 * coefficients >= count || surcharge(at, &least) >= allowed(at) ||
             !crease_fit_spline(fitter, at->sample, spans, &fitter->trial))
             break;
         compare(at);
@@ -237,9 +286,14 @@ static bool finish(choice *at)
 }
 
 bool crease_fit_choose(crease_fitter *fitter, const crease_sample *sample, crease_fit_rule rule,
-    crease_fit_level level, const crease_model *warm)
+    crease_fit_level level, const crease_model *warm, double limit)
 {
-    choice at = {.fitter = fitter, .sample = sample, .rule = rule, .level = level, .warm = warm};
+    choice at = {.fitter = fitter,
+        .sample = sample,
+        .rule = rule,
+        .level = level,
+        .limit = limit,
+        .warm = warm};
     begin(&at);
     if (!crease_fit_plane(fitter, sample, &fitter->trial))
         return false;
@@ -262,7 +316,11 @@ bool crease_fit_choose(crease_fitter *fitter, const crease_sample *sample, creas
 bool crease_fit_kind(crease_fitter *fitter, const crease_sample *sample, crease_region_type type,
     const crease_model *warm)
 {
-    choice at = {.fitter = fitter, .sample = sample, .rule = CREASE_RULE_BAYES, .warm = warm};
+    choice at = {.fitter = fitter,
+        .sample = sample,
+        .rule = CREASE_RULE_BAYES,
+        .limit = INFINITY,
+        .warm = warm};
     begin(&at);
     if (sample->count < 8)
         return false;

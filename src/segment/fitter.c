@@ -33,6 +33,7 @@ static size_t divide(crease_fitter *fitter)
     at = take(fitter, at, SCALE_POINTS, &fitter->deviations);
     at = take(fitter, at, 3 * n, &fitter->sample.points);
     at = take(fitter, at, 3 * n, &fitter->sample.normals);
+    at = take(fitter, at, 3 * n, &fitter->screen.points);
     at = take(fitter, at, m * m, &fitter->matrix);
     at = take(fitter, at, m, &fitter->right);
     at = take(fitter, at, m, &fitter->support);

@@ -22,8 +22,8 @@ typedef struct crease_fitter {
     double *matrix, *right, *support;               /* normal equations of height fields */
     double *coefficients[CREASE_FITTER_CANDIDATES]; /* room for those of models on trial */
     double *memory;
-    crease_sample sample;     /* room for one sample */
-    crease_model best, trial; /* the best model so far and the one on trial: see model choice */
+    crease_sample sample, screen; /* room for one sample, and for a few of its points */
+    crease_model best, trial;     /* the best model so far and the one on trial: see model choice */
 } crease_fitter;
 
 /* One fitter for each thread of the context. */
@@ -81,9 +81,10 @@ static const double CREASE_COST_CUT = 9.0;
 /* What so many points can decide between. */
 crease_fit_level crease_fit_level_for(size_t count);
 /* Makes fitter->best the cheapest model of the sample that the level allows, in the cloud's
- * coordinates; warm, a model to begin with, may be NULL. False when there is none. */
+ * coordinates; warm, a model to begin with, may be NULL. Dearer models than the limit need not be
+ * found. False when there is none. */
 bool crease_fit_choose(crease_fitter *fitter, const crease_sample *sample, crease_fit_rule rule,
-    crease_fit_level level, const crease_model *warm);
+    crease_fit_level level, const crease_model *warm, double limit);
 /* The same with one kind only; free form means a polynomial of degree 2. */
 bool crease_fit_kind(crease_fitter *fitter, const crease_sample *sample, crease_region_type type,
     const crease_model *warm);

@@ -127,7 +127,7 @@ static bool begin(growth *run, size_t seed, const pass *how, crease_fitter *fitt
     const bool loose = how->least_cosine < seg->least_cosine && count >= 10;
     crease_segmentation_sample_points(seg, run->members, count, SAMPLE, NULL, &fitter->sample);
     return crease_fit_choose(fitter, &fitter->sample, CREASE_RULE_GROWING,
-               loose ? CREASE_LEVEL_ROUND : crease_fit_level_for(count), NULL) &&
+               loose ? CREASE_LEVEL_ROUND : crease_fit_level_for(count), NULL, INFINITY) &&
         fitter->best.chi <= worst_seed;
 }
 
@@ -178,7 +178,7 @@ static bool grow(growth *run, size_t seed, const pass *how, crease_fitter *fitte
             run->seg, run->members, run->member_count, SAMPLE, model, sample);
         const crease_model warm = *model;
         if (!crease_fit_choose(fitter, sample, CREASE_RULE_GROWING,
-                crease_fit_level_for(run->member_count), &warm))
+                crease_fit_level_for(run->member_count), &warm, INFINITY))
             return false;
     }
     return true;

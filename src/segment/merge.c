@@ -195,7 +195,7 @@ static void find_gain(merging *run, region_pair *pair, crease_fitter *fitter)
     if (unchanged > 0.0 && sizes[0] + sizes[1] > 3 * small)
         keep_model(run, pair, big, unchanged);
     else if (crease_fit_choose(
-                 fitter, both, CREASE_RULE_BAYES, crease_fit_level_for(both->count), big))
+                 fitter, both, CREASE_RULE_BAYES, crease_fit_level_for(both->count), big, apart))
         keep_model(run, pair, &fitter->best, apart - fitter->best.cost);
 }
 

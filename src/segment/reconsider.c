@@ -92,7 +92,7 @@ static bool fit_closest(trial *at, candidate *one, const candidate *rival, creas
     crease_segmentation_sample_points(at->seg, v->chosen, count, 300, &one->model, sample);
     const crease_fit_level level = sample->count < 16 ? CREASE_LEVEL_QUADRATIC : CREASE_LEVEL_ROUND;
     const bool fitted = kind == CREASE_REGION_FREEFORM
-        ? crease_fit_choose(at->fitter, sample, CREASE_RULE_BAYES, level, &one->model)
+        ? crease_fit_choose(at->fitter, sample, CREASE_RULE_BAYES, level, &one->model, INFINITY)
         : crease_fit_kind(at->fitter, sample, kind, &one->model);
     if (fitted)
         keep(one, &at->fitter->best);
@@ -232,7 +232,8 @@ static bool fit_half(
         return false;
     crease_sample *const sample = &at->fitter->sample;
     crease_segmentation_sample_points(at->seg, v->chosen, count, 200, at->current, sample);
-    if (!crease_fit_choose(at->fitter, sample, CREASE_RULE_BAYES, CREASE_LEVEL_ROUND, NULL))
+    if (!crease_fit_choose(
+            at->fitter, sample, CREASE_RULE_BAYES, CREASE_LEVEL_ROUND, NULL, INFINITY))
         return false;
     keep(out, &at->fitter->best);
     return true;

@@ -79,7 +79,7 @@ static bool fit(const refitting *run, size_t region, crease_fitter *fitter)
         return true;
     return crease_fit_choose(fitter, sample,
         run->freeforms ? CREASE_RULE_AKAIKE : CREASE_RULE_BAYES,
-        crease_fit_level_for(sample->count), old);
+        crease_fit_level_for(sample->count), old, INFINITY);
 }
 
 static void refit_region(const refitting *run, size_t region, crease_fitter *fitter)

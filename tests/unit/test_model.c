@@ -318,8 +318,8 @@ static void degenerate_samples_are_refused_or_harmless(void **state)
                 assert_true(isfinite(fitter->best.cost));
         }
     fitter->sample.count = 2;
-    assert_false(
-        crease_fit_choose(fitter, &fitter->sample, CREASE_RULE_BAYES, CREASE_LEVEL_ALL, NULL));
+    assert_false(crease_fit_choose(
+        fitter, &fitter->sample, CREASE_RULE_BAYES, CREASE_LEVEL_ALL, NULL, INFINITY));
     end(&bench);
 }
 
@@ -334,7 +334,7 @@ static void the_kind_of_surface_is_recognised(void **state)
             const crease_model truth = given_model((crease_region_type)type);
             fill_sample(&fitter->sample, &truth, 800, 0.5, 0.02 * noisy, 3);
             assert_true(crease_fit_choose(
-                fitter, &fitter->sample, CREASE_RULE_BAYES, CREASE_LEVEL_ALL, NULL));
+                fitter, &fitter->sample, CREASE_RULE_BAYES, CREASE_LEVEL_ALL, NULL, INFINITY));
             if ((int)fitter->best.type != type)
                 fail_msg("%s taken for %s", names[type], names[fitter->best.type]);
             assert_near(fitter->best.cost,
@@ -396,8 +396,8 @@ static void free_forms_are_followed_to_the_noise(void **state)
     struct bench bench = given_fitter(0.005);
     crease_fitter *const fitter = &bench.fitters[0];
     fill_heights(&fitter->sample, waves, 3000, 0.005);
-    assert_true(
-        crease_fit_choose(fitter, &fitter->sample, CREASE_RULE_BAYES, CREASE_LEVEL_ALL, NULL));
+    assert_true(crease_fit_choose(
+        fitter, &fitter->sample, CREASE_RULE_BAYES, CREASE_LEVEL_ALL, NULL, INFINITY));
     assert_int_equal(fitter->best.type, CREASE_REGION_FREEFORM);
     assert_true(fitter->best.chi < 1.1);
     crease_model copy;
