@@ -221,6 +221,17 @@ static crease_status run(crease_context *context, work *w)
     return status;
 }
 
+/* A line of full multiplicity needs one more span on either side of it. */
+static void warn_of_small_net(crease_context *context, const crease_sheet_options *o)
+{
+    const size_t least = 2 * (size_t)o->order - 1;
+    if (o->net[0] && o->creases && o->net[0] < least && o->net[1] < least)
+        crease_warn(context,
+            "a net of %zu x %zu control points has no room for a crease; give at least %zu in one "
+            "direction",
+            o->net[0], o->net[1], least);
+}
+
 crease_status crease_sheet_fit(crease_context *context, const crease_cloud *cloud,
     const crease_sheet_options *options, crease_sheet **out)
 {
@@ -243,6 +254,7 @@ crease_status crease_sheet_fit(crease_context *context, const crease_cloud *clou
     if (w.count < LEAST_POINTS)
         return crease_fail(context, CREASE_ERROR_TOO_FEW_POINTS,
             "sheet: %zu points; a sheet needs at least %d, give more", w.count, LEAST_POINTS);
+    warn_of_small_net(context, &chosen);
     const int blas_threads = openblas_get_num_threads();
     openblas_set_num_threads(1);
     status = run(context, &w);

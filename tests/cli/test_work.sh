@@ -65,6 +65,9 @@ u = r["surface"]["u"]["knots"]
 assert max(u.count(k) for k in u[4:-4]) == 3, u
 assert r["seconds"]["total"] > 0'
 
+expect 0 "no room for a crease" fit sample.ply --net 6x6 -o small.step
+expect 0 "1 creases" fit sample.ply --net 7x4 -o small.step
+
 # --- fit, the paper's algorithm: rows 3 and 4 are repeated, a flat-topped ridge
 expect 0 "control points" fit sample.ply --method averaging -o a.step --report a.json
 check "the paper repeats two rows of its net" python3 -c '
