@@ -56,7 +56,7 @@ static crease_status find(
     if (status != CREASE_OK)
         return status;
     report_stage(r, "scores");
-    status = crease_regions_find(context, cloud, NULL, &all->regions);
+    status = crease_regions_find(context, cloud, &s->regions, &all->regions);
     if (status != CREASE_OK)
         return status;
     report_stage(r, "regions");

@@ -13,6 +13,7 @@ settings settings_default(void)
         .seed = context.seed,
         .read = crease_read_options_default(),
         .detect = crease_detect_options_default(),
+        .regions = crease_regions_options_default(),
         .method = METHOD_SHEET,
         .averaging = crease_averaging_options_default(),
         .sheet = crease_sheet_options_default(),

@@ -33,6 +33,7 @@ typedef struct settings {
     crease_read_options read;
     /* what it does */
     crease_detect_options detect;
+    crease_regions_options regions;
     int method; /* fit_method */
     crease_averaging_options averaging;
     crease_sheet_options sheet;

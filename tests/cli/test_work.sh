@@ -45,6 +45,12 @@ edges = struct.unpack_from("<%dI" % (2 * count["edge"]), body, 28 * count["verte
 degrees = [edges.count(v) for v in range(count["vertex"])]
 assert degrees.count(3) == 8 and set(degrees) <= {2, 3}, degrees'
 
+# --- a known noise is taken as it is: with a large one the panel's edge drowns
+expect 0 "noise 0.001" detect panel.ply --sigma 0.001 -o known.ply
+expect 0 "creases: 1" detect panel.ply --sigma 0.001 -o known.ply
+expect 0 "creases: none" detect panel.ply --sigma 0.2 -o known.ply
+expect 2 "number from 0" detect panel.ply --sigma -1 -o known.ply
+
 # --- fit, sheet
 expect 0 "2 faces, 1 creases" fit sample.ply -o s.step -o s.igs -o s.brep -o s.obj -o s.stl -o s.ply \
     -o s.glb -o s.png -o s.svg -o s.pdf -o s.html --creases s_creases.ply --points s_on.ply --report s.json
