@@ -2,6 +2,7 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* crease detect: the sharp edges of a cloud, as curves and as labels of its points. */
+#include "cad.h"
 #include "command.h"
 #include "input.h"
 #include "target.h"
@@ -10,7 +11,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { ALLOWED = TARGET_CLOUD | TARGET_FIGURE | TARGET_PAGE | TARGET_REPORT, TYPES = 6 };
+enum {
+    ALLOWED = TARGET_CLOUD | TARGET_FIGURE | TARGET_PAGE | TARGET_REPORT,
+    CREASES = TARGET_LINES | TARGET_CAD,
+    TYPES = 6
+};
 
 typedef struct result {
     crease_scores *scores;
@@ -181,6 +186,18 @@ static crease_status write_seen(
     return status;
 }
 
+static crease_status write_creases(
+    crease_context *context, report *r, const crease_network *network, const char *path)
+{
+    if (target_of(path, CREASES) == TARGET_CAD)
+        return cad_write_creases(
+            context, r, crease_network_curves(network), crease_network_count(network), path);
+    const crease_status status = crease_network_write(context, network, path);
+    if (status == CREASE_OK)
+        report_line(r, "wrote %s", path);
+    return status;
+}
+
 static crease_status write_outputs(
     crease_context *context, const settings *s, report *r, const result *all)
 {
@@ -198,9 +215,7 @@ static crease_status write_outputs(
             report_line(r, "wrote %s", path);
     }
     if (status == CREASE_OK && s->creases)
-        status = crease_network_write(context, all->network, s->creases);
-    if (status == CREASE_OK && s->creases)
-        report_line(r, "wrote %s", s->creases);
+        status = write_creases(context, r, all->network, s->creases);
     report_stage(r, "write");
     return status == CREASE_OK ? target_write_report(context, r, s->report) : status;
 }
@@ -211,7 +226,7 @@ crease_status detect_run(crease_context *context, const settings *s, report *r)
     result all = {0};
     crease_status status = targets_check(context, s, ALLOWED);
     if (status == CREASE_OK)
-        status = target_check(context, s->creases, TARGET_LINES);
+        status = target_check(context, s->creases, CREASES);
     if (status == CREASE_OK)
         status = target_check(context, s->report, TARGET_REPORT);
     if (status == CREASE_OK)

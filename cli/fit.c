@@ -2,20 +2,20 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* crease fit: a surface that keeps its sharp edges. */
+#include "cad.h"
 #include "command.h"
 #include "input.h"
 #include "target.h"
-
-#ifdef CREASE_HAVE_CAD
-#include "crease/crease_cad.h"
-#endif
 
 #include <math.h>
 #include <stdlib.h>
 
 /* A larger net would hide in a figure what it surrounds; on the page it can be switched off. */
 enum { MOST_NET_IN_FIGURE = 100 };
-enum { ALLOWED = TARGET_CAD | TARGET_MESH | TARGET_FIGURE | TARGET_PAGE | TARGET_REPORT };
+enum {
+    ALLOWED = TARGET_CAD | TARGET_MESH | TARGET_FIGURE | TARGET_PAGE | TARGET_REPORT,
+    CREASES = TARGET_LINES | TARGET_CAD
+};
 
 /* What the fit has brought: everything that is written. */
 typedef struct result {
@@ -175,18 +175,6 @@ static void describe(report *r, const result *all)
     describe_surface(r, crease_sheet_surface(all->sheet));
 }
 
-static crease_status write_cad(crease_context *context, const result *all, const char *path)
-{
-#ifdef CREASE_HAVE_CAD
-    return crease_cad_write(
-        context, (const crease_surface *const *)all->faces, all->face_count, path);
-#else
-    (void)all;
-    return crease_context_fail(context, CREASE_ERROR_UNSUPPORTED,
-        "%s: this build writes no CAD models; build with OpenCASCADE (CREASE_CAD=ON)", path);
-#endif
-}
-
 static crease_status write_mesh(crease_context *context, const result *all, const char *path)
 {
     crease_mesh *mesh = NULL;
@@ -226,7 +214,8 @@ static crease_status write_one(
 {
     switch (target_of(path, ALLOWED)) {
     case TARGET_CAD:
-        return write_cad(context, all, path);
+        return cad_write_surfaces(
+            context, (const crease_surface *const *)all->faces, all->face_count, path);
     case TARGET_MESH:
         return write_mesh(context, all, path);
     case TARGET_REPORT:
@@ -234,6 +223,15 @@ static crease_status write_one(
     default:
         return write_seen(context, s, all, path);
     }
+}
+
+static crease_status write_creases(
+    crease_context *context, report *r, const result *all, const char *path)
+{
+    const crease_curve *const *lines = (const crease_curve *const *)all->lines;
+    if (target_of(path, CREASES) == TARGET_CAD)
+        return cad_write_creases(context, r, lines, all->line_count, path);
+    return crease_curves_write(context, lines, all->line_count, 0.0, path);
 }
 
 static crease_status write_outputs(
@@ -246,8 +244,7 @@ static crease_status write_outputs(
             report_line(r, "wrote %s", s->outputs[i]);
     }
     if (status == CREASE_OK && s->creases)
-        status = crease_curves_write(
-            context, (const crease_curve *const *)all->lines, all->line_count, 0.0, s->creases);
+        status = write_creases(context, r, all, s->creases);
     if (status == CREASE_OK && s->points)
         status = crease_cloud_write(context, all->projected, s->points);
     report_stage(r, "write");
@@ -258,7 +255,7 @@ static crease_status check(crease_context *context, const settings *s)
 {
     crease_status status = targets_check(context, s, ALLOWED);
     if (status == CREASE_OK)
-        status = target_check(context, s->creases, TARGET_LINES);
+        status = target_check(context, s->creases, CREASES);
     if (status == CREASE_OK)
         status = target_check(context, s->points, TARGET_CLOUD);
     return status == CREASE_OK ? target_check(context, s->report, TARGET_REPORT) : status;

@@ -26,8 +26,9 @@ static void add_counts(cJSON *model, const crease_cad_info *info)
     } counts[] = {{"solids", info->solids}, {"shells", info->shells},
         {"closed_shells", info->closed_shells}, {"faces", info->faces}, {"edges", info->edges},
         {"vertices", info->vertices}, {"free_edges", info->free_edges},
-        {"sharp_edges", info->sharp_edges}, {"bspline_faces", info->bspline_faces},
-        {"plane_faces", info->plane_faces}, {"other_faces", info->other_faces}};
+        {"sharp_edges", info->sharp_edges}, {"wire_edges", info->wire_edges},
+        {"bspline_faces", info->bspline_faces}, {"plane_faces", info->plane_faces},
+        {"other_faces", info->other_faces}};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++)
         cJSON_AddNumberToObject(model, counts[i].name, (double)counts[i].count);
 }
@@ -40,7 +41,8 @@ static void print_model(const report *r, const char *path, const crease_cad_info
         info->solids, info->shells, info->closed_shells, info->faces, info->edges, info->vertices);
     report_line(r, "  faces: %zu B-spline, %zu plane, %zu other", info->bspline_faces,
         info->plane_faces, info->other_faces);
-    report_line(r, "  edges: %zu free, %zu sharp", info->free_edges, info->sharp_edges);
+    report_line(r, "  edges: %zu free, %zu sharp, %zu on no face", info->free_edges,
+        info->sharp_edges, info->wire_edges);
     report_line(r, "  x %g to %g, y %g to %g, z %g to %g", info->lowest[0], info->highest[0],
         info->lowest[1], info->highest[1], info->lowest[2], info->highest[2]);
     report_line(r, "  area %g, volume %g, tolerance %g", info->area, info->volume, info->tolerance);

@@ -17,7 +17,9 @@ const option option_table[] = {
     {"output", 'o', OPTION_OUTPUT, "FILE", FOR_DETECT | FOR_FIT | FOR_EXAMPLE | FOR_REPRODUCE, 0, 0,
         0, NULL, "what to write; may be given several times, the extension says what", "nothing"},
     {"creases", 0, OPTION_PATH, "FILE", FOR_DETECT | FOR_FIT, AT(creases), 0, 0, NULL,
-        "write the creases as lines: .ply, .obj or .csv", "not written"},
+        "write the creases: as lines to .ply, .obj or .csv, as the curves that they are to .step, "
+        ".stp, .iges, .igs or .brep",
+        "not written"},
     {"points", 0, OPTION_PATH, "FILE", FOR_FIT, AT(points), 0, 0, NULL,
         "write the cloud projected onto the surface, with the field `deviation`: .ply, .xyz, .csv, "
         "...",

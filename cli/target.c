@@ -3,6 +3,8 @@
 
 #include "target.h"
 
+#include "cad.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,6 +62,8 @@ crease_status target_check(crease_context *context, const char *path, int allowe
         return crease_context_fail(context, CREASE_ERROR_ARGUMENT,
             "%s: nothing is known to write there; use one of %s", path, list);
     }
+    if (target_of(path, allowed) == TARGET_CAD && cad_check(context, path) != CREASE_OK)
+        return CREASE_ERROR_UNSUPPORTED;
     const char *slash = strrchr(path, '/');
     char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
     const bool writable = folder && access(folder, W_OK) == 0;

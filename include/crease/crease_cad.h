@@ -19,6 +19,7 @@ typedef struct crease_cad_info {
     char schema[64]; /**< STEP schema, e.g. "AP242", else empty */
     size_t solids, shells, closed_shells, faces, edges, vertices;
     size_t free_edges;  /**< edges on one face only */
+    size_t wire_edges;  /**< edges on no face */
     size_t sharp_edges; /**< edges between two faces that meet at more than 10 degrees */
     size_t bspline_faces, plane_faces, other_faces;
     bool valid;                   /**< OpenCASCADE's BRepCheck finds no fault */
@@ -40,6 +41,16 @@ typedef struct crease_cad_info {
  * to write, a shell with one side, OpenCASCADE finds fault: the sentence says with which face). */
 CREASE_API crease_status crease_cad_write(
     crease_context *context, const crease_surface *const *surfaces, size_t count, const char *path);
+
+/** Writes curves, such as creases, as edges in space: STEP (AP242), IGES or BREP by extension. Each
+ * edge is the curve itself, not an approximation; it is cut only where CAD programs expect no kink:
+ * where a knot's multiplicity reaches the degree. Parameters run from 0 to 1. Curves whose ends are
+ * the same point share a vertex, except in IGES, whose curves know none. Units and bytes as in
+ * crease_cad_write().
+ * Errors: ARGUMENT (unknown extension, no curve, order 1), CANNOT_WRITE, NUMERIC (all curves have
+ * shrunk to points, OpenCASCADE finds fault). */
+CREASE_API crease_status crease_cad_curves_write(
+    crease_context *context, const crease_curve *const *curves, size_t count, const char *path);
 
 /** Reads a CAD file and tells what it holds. OpenCASCADE breaks down over some damaged files, so it
  * reads in a process of its own (fork), which is gone when the call returns.

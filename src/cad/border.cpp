@@ -4,6 +4,7 @@
 #include "cad/border.hpp"
 
 #include "cad/occt.hpp"
+#include "cad/vertices.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,39 +15,7 @@ namespace crease_cad
 namespace
 {
 
-constexpr size_t NONE = SIZE_MAX;
-
-/* Points nearer than a distance are one vertex: the first that came. */
-class Vertices
-{
-  public:
-    Vertices(std::vector<gp_XYZ> &all, double distance) : places(all), within(distance) {}
-
-    /* The vertex at the point, or NONE. */
-    size_t find(const gp_XYZ &point) const
-    {
-        const auto end = by_x.upper_bound(point.X() + within);
-        for (auto it = by_x.lower_bound(point.X() - within); it != end; ++it)
-            if ((places[it->second] - point).Modulus() <= within)
-                return it->second;
-        return NONE;
-    }
-
-    size_t find_or_add(const gp_XYZ &point)
-    {
-        const size_t found = find(point);
-        if (found != NONE)
-            return found;
-        by_x.emplace(point.X(), places.size());
-        places.push_back(point);
-        return places.size() - 1;
-    }
-
-  private:
-    std::vector<gp_XYZ> &places;
-    double within;
-    std::multimap<double, size_t> by_x;
-};
+constexpr size_t NONE = Vertices::NONE;
 
 class Matcher
 {

@@ -84,8 +84,10 @@ static void count_edges(const TopoDS_Shape &shape, crease_cad_info &info)
             continue;
         info.edges++;
         const TopTools_ListOfShape &faces = edges(i);
-        if (faces.IsEmpty())
+        if (faces.IsEmpty()) {
+            info.wire_edges++;
             continue;
+        }
         const TopoDS_Face first = TopoDS::Face(faces.First()), last = TopoDS::Face(faces.Last());
         if (faces.Extent() == 1 && !BRep_Tool::IsClosed(edge, first))
             info.free_edges++;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
+/* Nets are turned, cut and mended here. Operations work along u; transpose first to work along v.
+ * The domain of a clamped net is [0, 1] in u and v. */
 #include "cad/net.hpp"
 
 #include "cad/kernel.hpp"
@@ -9,6 +11,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace crease_cad
 {
@@ -37,6 +41,18 @@ Net net_of(const crease_surface *surface)
     const size_t count = net.count[0] * net.count[1];
     net.points.reserve(count);
     for (const double *p = parts.control_points; net.points.size() < count; p += 3)
+        net.points.emplace_back(p[0], p[1], p[2]);
+    return net;
+}
+
+Net net_of(const crease_curve *curve)
+{
+    const int order = crease_curve_order(curve);
+    const size_t count = crease_curve_count(curve);
+    const double *knots = crease_curve_knots(curve), *points = crease_curve_control_points(curve);
+    Net net = {
+        {order - 1, 0}, {count, 1}, {{knots, knots + count + (size_t)order}, {0.0, 1.0}}, {}};
+    for (const double *p = points; net.points.size() < count; p += 3)
         net.points.emplace_back(p[0], p[1], p[2]);
     return net;
 }
@@ -74,7 +90,7 @@ Measure measure_of(const std::vector<Net> &nets)
     return measure;
 }
 
-Net transposed(const Net &net)
+static Net transposed(const Net &net)
 {
     Net out = net;
     std::swap(out.degree[0], out.degree[1]);
@@ -86,7 +102,8 @@ Net transposed(const Net &net)
     return out;
 }
 
-Net reversed(const Net &net)
+/* The net with u running the other way. */
+static Net reversed(const Net &net)
 {
     Net out = net;
     const double sum = net.knots[0].front() + net.knots[0].back();
@@ -99,7 +116,7 @@ Net reversed(const Net &net)
     return out;
 }
 
-bool rows_equal(const Net &net, size_t first, size_t second, double within)
+static bool rows_equal(const Net &net, size_t first, size_t second, double within)
 {
     for (size_t j = 0; j < net.count[1]; j++)
         if ((net.at(first, j) - net.at(second, j)).Modulus() > within)
@@ -115,11 +132,12 @@ static bool run_equal(const Net &net, size_t first, size_t last, double within)
     return true;
 }
 
-bool collapsed(const Net &net, double within)
+/* True when the net has shrunk to a curve or a point along u or v; that of a curve has no v. */
+static bool collapsed(const Net &net, double within)
 {
     const Net turned = transposed(net);
     return run_equal(net, 0, net.count[0] - 1, within) ||
-        run_equal(turned, 0, turned.count[0] - 1, within);
+        (turned.degree[0] > 0 && run_equal(turned, 0, turned.count[0] - 1, within));
 }
 
 static size_t multiplicity(const std::vector<double> &knots, double t)
@@ -160,14 +178,17 @@ static Net normalised(const Net &net)
     return out;
 }
 
-Net clamped(crease_context *context, const Net &net)
+/* The same surface over [0, 1] x [0, 1] with clamped knots, nearly equal knots made equal. */
+static Net clamped(crease_context *context, const Net &net)
 {
     crease_surface *surface = nullptr;
     require(crease_surface_clamp(context, surface_of(context, normalised(net)).get(), &surface));
     return net_of(Surface(surface).get());
 }
 
-std::optional<double> crease_of(const Net &net, double within)
+/* An inner u where the surface may have a crease: the knot's multiplicity reaches the degree, or
+ * all control rows that matter there are one (the averaging method's repeated rows). */
+static std::optional<double> crease_of(const Net &net, double within)
 {
     const std::vector<double> &knots = net.knots[0];
     const size_t degree = (size_t)net.degree[0];
@@ -182,7 +203,8 @@ std::optional<double> crease_of(const Net &net, double within)
     return std::nullopt;
 }
 
-std::pair<Net, Net> split(crease_context *context, const Net &net, double u)
+/* Cuts a clamped net at u. */
+static std::pair<Net, Net> split(crease_context *context, const Net &net, double u)
 {
     crease_surface *lower = nullptr, *upper = nullptr;
     require(crease_surface_split(context, surface_of(context, net).get(), 0, u, &lower, &upper));
@@ -218,7 +240,10 @@ static Net straightened_at_start(crease_context *context, const Net &given)
     return net;
 }
 
-Net straightened(crease_context *context, const Net &net, double within)
+/* At repeated rows the surface's derivative vanishes at the border: there S = R + s^degree (Q - R).
+ * That first span is ruled; this gives it the parameter w = s^degree, which is the same surface
+ * with a derivative, and C1 where it meets the next span. */
+static Net straightened(crease_context *context, const Net &net, double within)
 {
     Net out = net;
     for (int d = 0; d < 2; d++) {
@@ -230,6 +255,31 @@ Net straightened(crease_context *context, const Net &net, double within)
         out = transposed(out);
     }
     return out;
+}
+
+/* Cuts a clamped net at its creases, in both directions, until the pieces are smooth. */
+static void add_smooth_pieces(
+    crease_context *context, const Net &net, const Measure &measure, std::vector<Net> &out)
+{
+    for (int d = 0; d < 2; d++) {
+        const Net turned = d == 0 ? net : transposed(net);
+        const std::optional<double> crease = crease_of(turned, measure.fuzz);
+        if (!crease)
+            continue;
+        const auto [lower, upper] = split(context, turned, *crease);
+        for (const Net &piece : {lower, upper})
+            add_smooth_pieces(context, d == 0 ? piece : transposed(piece), measure, out);
+        return;
+    }
+    if (!collapsed(net, measure.joint))
+        out.push_back(straightened(context, net, measure.fuzz));
+}
+
+std::vector<Net> smooth_pieces(crease_context *context, const Net &net, const Measure &measure)
+{
+    std::vector<Net> pieces;
+    add_smooth_pieces(context, clamped(context, net), measure, pieces);
+    return pieces;
 }
 
 } // namespace crease_cad

@@ -21,7 +21,7 @@ expect 2 "whole number from 4 to 256" detect cloud.ply -K 16.5
 expect 2 "number from 0 to 100" example panel --noise 101
 expect 2 "number from 0 to 100" example panel --noise nan
 expect 2 "no option" detect cloud.ply --false-discovery-rate 0.1
-expect 2 ".ply .obj .csv" detect cloud.ply --creases out.step
+expect 2 ".brep .ply .obj .csv" detect cloud.ply --creases out.xyz
 expect 2 "6x6" fit cloud.ply --net 6
 expect 2 "6x6" fit cloud.ply --net 3x6
 expect 2 "sheet or averaging" fit cloud.ply --method magic

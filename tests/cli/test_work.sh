@@ -45,6 +45,19 @@ edges = struct.unpack_from("<%dI" % (2 * count["edge"]), body, 28 * count["verte
 degrees = [edges.count(v) for v in range(count["vertex"])]
 assert degrees.count(3) == 8 and set(degrees) <= {2, 3}, degrees'
 
+# --- creases as the curves that they are: edges that share their corners, except in IGES
+for file in c.step c.stp c.brep; do
+    expect 0 "wrote $file" detect cube.ply --creases $file
+    expect 0 "12 edges, 8 vertices" info $file
+    expect 0 "12 on no face" info $file
+done
+expect 0 "wrote c.igs" detect cube.ply --creases c.igs
+expect 0 "12 edges, 24 vertices" info c.igs
+expect 0 "no crease to write: none.step" detect panel.ply --sigma 0.2 --creases none.step
+check "a file without creases is not written" test ! -e none.step
+expect 0 "wrote l.step" fit panel.ply --creases l.step
+expect 0 "1 edges, 2 vertices" info l.step
+
 # --- a known noise is taken as it is: with a large one the panel's edge drowns
 expect 0 "noise 0.001" detect panel.ply --sigma 0.001 -o known.ply
 expect 0 "creases: 1" detect panel.ply --sigma 0.001 -o known.ply

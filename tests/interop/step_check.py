@@ -11,6 +11,10 @@ add up to control points + degree + 1; curves begin and end at their vertices; l
 faces go along a common edge in opposite directions; a closed shell has no free edge; an edge's curve
 in space and its curves in the parameter planes of its faces are the same points. The file's name tells how many faces, shared edges
 and closed shells it must have: NAME.FACES-SHARED-CLOSED.step.
+
+Files with edges on no face, NAME.EDGES-VERTICES.step, have beside them NAME.EDGES-VERTICES.txt with
+places on their curves (number of the curve, part of its domain, x, y, z): the curves must go through
+them within 1e-12 of their size.
 """
 import glob
 import os
@@ -238,6 +242,19 @@ class Model:
                 closed += name == 'CLOSED_SHELL'
         return shared, closed
 
+    def check_wires(self, places):
+        edges = [set_ for n, a in self.each('EDGE_BASED_WIREFRAME_MODEL') for set_ in a[1]]
+        edges = [edge for set_ in edges for edge in self.get(set_, 'CONNECTED_EDGE_SET')[1]]
+        curves = [self.get(edge, 'EDGE_CURVE')[3] for edge in edges]
+        size = max(abs(c) for _, _, place in places for c in place)
+        for number, part, place in places:
+            knots = self.get(curves[number], 'B_SPLINE_CURVE_WITH_KNOTS')[7]
+            there = self.curve_at(curves[number], knots[0] + part * (knots[-1] - knots[0]))
+            away = max(abs(a - b) for a, b in zip(place, there))
+            require(away < 1e-12 * size, "curve %d is %g away at %g", number, away, part)
+        ends = {vertex for edge in edges for vertex in self.get(edge, 'EDGE_CURVE')[1:3]}
+        return [len(edges), len(ends)]
+
     def check(self):
         require('AP242' in self.header, "the schema is not AP242")
         self.check_references()
@@ -246,6 +263,24 @@ class Model:
         self.check_edges()
         self.check_curves_on_faces()
         return [len(self.each('ADVANCED_FACE')), *self.check_shells()]
+
+
+def read_places(path):
+    rows = [line.split() for line in open(path, encoding='ascii')]
+    return [(int(r[0]), float(r[1]), [float(c) for c in r[2:]]) for r in rows]
+
+
+def check_file(path):
+    model = Model(path)
+    found = model.check()
+    told = os.path.basename(path).split('.')[1]
+    if re.fullmatch(r'\d+-\d+', told):
+        wires = model.check_wires(read_places(path[:-len('step')] + 'txt'))
+        require(wires == [int(n) for n in told.split('-')], "edges, vertices: %s", wires)
+        return '%d edges, %d vertices' % tuple(wires)
+    wanted = [int(n) for n in told.split('-')] if re.fullmatch(r'\d+-\d+-\d+', told) else found
+    require(found == wanted, "faces, shared edges, closed shells: %s, expected %s", found, wanted)
+    return '%d faces, %d shared edges, %d closed shells' % tuple(found)
 
 
 def main(arguments):
@@ -259,11 +294,7 @@ def main(arguments):
     faults = 0
     for path in arguments:
         try:
-            found = Model(path).check()
-            told = os.path.basename(path).split('.')[1]
-            wanted = [int(n) for n in told.split('-')] if re.fullmatch(r'\d+-\d+-\d+', told) else found
-            require(found == wanted, "faces, shared edges, closed shells: %s, expected %s", found, wanted)
-            print('%s: %d faces, %d shared edges, %d closed shells' % (os.path.basename(path), *found))
+            print('%s: %s' % (os.path.basename(path), check_file(path)))
         except Fault as fault:
             print('%s: %s' % (path, fault))
             faults += 1

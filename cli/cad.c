@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+#include "cad.h"
+
+#ifdef CREASE_HAVE_CAD
+#include "crease/crease_cad.h"
+
+crease_status cad_check(crease_context *context, const char *path)
+{
+    (void)context, (void)path;
+    return CREASE_OK;
+}
+
+crease_status cad_write_surfaces(
+    crease_context *context, const crease_surface *const *surfaces, size_t count, const char *path)
+{
+    return crease_cad_write(context, surfaces, count, path);
+}
+
+static crease_status write_curves(
+    crease_context *context, const crease_curve *const *curves, size_t count, const char *path)
+{
+    return crease_cad_curves_write(context, curves, count, path);
+}
+#else
+crease_status cad_check(crease_context *context, const char *path)
+{
+    return crease_context_fail(context, CREASE_ERROR_UNSUPPORTED,
+        "%s: this build writes no CAD files; build with OpenCASCADE (CREASE_CAD=ON)", path);
+}
+
+crease_status cad_write_surfaces(
+    crease_context *context, const crease_surface *const *surfaces, size_t count, const char *path)
+{
+    (void)surfaces, (void)count;
+    return cad_check(context, path);
+}
+
+static crease_status write_curves(
+    crease_context *context, const crease_curve *const *curves, size_t count, const char *path)
+{
+    (void)curves, (void)count;
+    return cad_check(context, path);
+}
+#endif
+
+crease_status cad_write_creases(crease_context *context, report *r,
+    const crease_curve *const *curves, size_t count, const char *path)
+{
+    if (count == 0) {
+        report_line(r, "no crease to write: %s is left as it is", path);
+        return CREASE_OK;
+    }
+    const crease_status status = write_curves(context, curves, count, path);
+    if (status == CREASE_OK)
+        report_line(r, "wrote %s", path);
+    return status;
+}
