@@ -52,6 +52,15 @@ static void guess(
     }
 }
 
+static void measure_nearest(work *w, const crease_twoplane *planes)
+{
+    for (size_t i = 0; i < w->count; i++) {
+        const double *const p = w->points + 3 * i;
+        w->nearest[i] = fmin(distance(planes->normal[0], planes->centre[0], p),
+            distance(planes->normal[1], planes->centre[1], p));
+    }
+}
+
 static void fit_planes(work *w, crease_twoplane *planes)
 {
     w->narrowest = INFINITY;
@@ -61,11 +70,7 @@ static void fit_planes(work *w, crease_twoplane *planes)
         memcpy(planes->normal[k], axes, sizeof planes->normal[k]);
         w->narrowest = fmin(w->narrowest, values[1]);
     }
-    for (size_t i = 0; i < w->count; i++) {
-        const double *const p = w->points + 3 * i;
-        w->nearest[i] = fmin(distance(planes->normal[0], planes->centre[0], p),
-            distance(planes->normal[1], planes->centre[1], p));
-    }
+    measure_nearest(w, planes);
 }
 
 static double odds_against(double own, double other)
@@ -144,15 +149,6 @@ static bool meet(crease_twoplane *planes, const double mean[3], double extent)
     return crease_vector_distance(planes->edge, mean) < extent;
 }
 
-static double mean_distance_to_one(
-    const double *points, size_t count, const double mean[3], const double normal[3])
-{
-    double sum = 0.0;
-    for (size_t i = 0; i < count; i++)
-        sum += distance(normal, mean, points + 3 * i);
-    return sum / (double)count;
-}
-
 /* Number g of the guesses: four directions within the main plane, first across the middle, where
  * the edge of an even sample is, then off it. */
 static void first_guess(
@@ -168,29 +164,56 @@ static void first_guess(
     guess(w, mean, direction, fmax(w->least, sqrt(fmax(0.0, variance))), offsets[g / DIRECTIONS]);
 }
 
+/* 0 when the points of both planes lie on the same side of the edge, 2 when the planes are one; 1
+ * where they do not meet near the points. */
+static double openness(crease_twoplane *planes, const double mean[3], double extent)
+{
+    return meet(planes, mean, extent)
+        ? 1.0 - crease_vector_dot(planes->inward[0], planes->inward[1])
+        : 1.0;
+}
+
 /* From every guess. Of the pairs of planes about as near to the points as the nearest pair, the one
- * whose narrower set of points is widest: a plane through a single row of points fits anything.
+ * whose narrower set of points is widest, for a plane through a single row of points fits anything,
+ * and that folds the least: of three rows of points any two lie on a plane.
  * Returns its mean distance; infinite when every pair has a plane that is not determined. */
 static double settle_all(work *w, const double mean[3], const double values[3],
-    const double axes[9], double same, crease_twoplane *out)
+    const double axes[9], double extent, crease_twoplane *out)
 {
     crease_twoplane planes[DIRECTIONS * OFFSETS];
-    double reached[DIRECTIONS * OFFSETS], narrowest[DIRECTIONS * OFFSETS], least = INFINITY;
+    const double undetermined = 4.0 * w->spacing * w->spacing;
+    double reached[DIRECTIONS * OFFSETS], merit[DIRECTIONS * OFFSETS], least = INFINITY;
     for (int g = 0; g < DIRECTIONS * OFFSETS; g++) {
         first_guess(w, g, mean, values, axes);
         reached[g] = settle(w, &planes[g]);
-        narrowest[g] = w->narrowest;
-        if (narrowest[g] > 4.0 * w->spacing * w->spacing)
+        merit[g] = 0.0;
+        if (w->narrowest > undetermined) {
+            merit[g] = w->narrowest * openness(&planes[g], mean, extent);
             least = fmin(least, reached[g]);
+        }
     }
-    double widest = 4.0 * w->spacing * w->spacing, taken = INFINITY;
+    double most = 0.0, taken = INFINITY;
     for (int g = 0; g < DIRECTIONS * OFFSETS; g++)
-        if (reached[g] <= 2.0 * least + same && narrowest[g] > 1.01 * widest) {
-            widest = narrowest[g];
+        if (reached[g] <= 2.0 * least + 1e-9 * extent && merit[g] > 1.01 * most) {
+            most = merit[g];
             taken = reached[g];
             *out = planes[g];
         }
     return taken;
+}
+
+/* Whether two planes are much nearer than one, to the points in the mean or to most of them. */
+static bool gains(work *w, const crease_twoplane *two, double reached, const double mean[3],
+    const double normal[3])
+{
+    double sum = 0.0;
+    measure_nearest(w, two);
+    const double most = quantile_of_nearest(w);
+    for (size_t i = 0; i < w->count; i++)
+        sum += w->nearest[i] = distance(normal, mean, w->points + 3 * i);
+    const double one = sum / (double)w->count;
+    return one > w->least &&
+        (reached < LEAST_GAIN * one || most < LEAST_GAIN * quantile_of_nearest(w));
 }
 
 bool crease_twoplane_fit(const double *points, size_t count, double *scratch, crease_twoplane *out)
@@ -205,7 +228,6 @@ bool crease_twoplane_fit(const double *points, size_t count, double *scratch, cr
         .sorted = scratch + 3 * count,
         .least = fmax(DBL_MIN, 1e-12 * extent),
         .spacing = 0.08 * extent / sqrt((double)count)};
-    const double best = settle_all(&w, mean, values, axes, 1e-9 * extent, out);
-    const double one = mean_distance_to_one(points, count, mean, axes);
-    return best < LEAST_GAIN * one && one > 1e-12 * extent && meet(out, mean, extent);
+    const double best = settle_all(&w, mean, values, axes, extent, out);
+    return best < INFINITY && gains(&w, out, best, mean, axes) && meet(out, mean, extent);
 }

@@ -6,8 +6,8 @@
 
 #include "fit/system.h"
 
-/* Fills the bending matrix of a system (see there) that is otherwise zero. */
-crease_status crease_bending_fill(
-    crease_context *context, const crease_height *height, crease_system *system);
+/* Fills the bending and tension matrices of a system (see there) that are otherwise zero. */
+crease_status crease_bending_fill(crease_context *context, const crease_height *height,
+    const crease_gaps *gaps, crease_system *system);
 
 #endif

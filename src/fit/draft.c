@@ -5,12 +5,16 @@
 
 #include <math.h>
 
-enum { FEW_UNKNOWNS = 128 };
+enum { FEW_UNKNOWNS = 128, FEW_POINTS = 1000, MORE_ROUNDS = 3 };
 
 /* Parameters for each point; with more of them a fit follows the noise and tells nothing. */
 static const double MOST_FREEDOM = 0.4;
 /* Distances, in spacings, below which one fit is as good as another. */
 static const double NEGLIGIBLE = 1e-9;
+/* What a square gap over which the sheet rises by the whole range of heights costs, in squared
+ * standard deviations of a point: little beside what the points about it say. */
+static const double RISE = 1000.0;
+static const double FIRST_SCALE = 0.1; /* standard deviation before it is known, in ranges */
 static const double LAMBDAS[CREASE_LAMBDAS] = {1e-13, 1e-10, 1e-8, 1e-6, 1e-4, 1e-2, 1, 1e2, 1e6};
 
 void crease_draft_place(crease_draft *draft)
@@ -40,23 +44,39 @@ crease_draft crease_draft_variant(
     return variant;
 }
 
-/* Fits with one bending weight; the score stays infinite where the equations have no solution. */
-static crease_status try_lambda(crease_context *context, crease_draft *draft, double lambda)
+/* Solves with one bending weight; false when the equations have no solution. */
+static crease_status solve(
+    crease_context *context, crease_draft *draft, double lambda, bool *solved)
 {
-    draft->score = INFINITY;
-    if (!crease_system_factor(&draft->system, lambda))
+    *solved = crease_system_factor(&draft->system, lambda);
+    if (!*solved)
         return CREASE_OK;
     crease_system_solve(&draft->system, &draft->height);
-    const crease_status status = crease_samples_measure(context, draft->samples, &draft->height);
-    if (status != CREASE_OK)
-        return status;
+    return crease_samples_measure(context, draft->samples, &draft->height);
+}
+
+/* Mean distance, freedom and score of the solution at hand. */
+static void evaluate(crease_draft *draft)
+{
     const double n = draft->samples->used;
     const double floor = fmax(draft->samples->rounding, NEGLIGIBLE * draft->samples->spacing);
     draft->mean = crease_samples_mean_distance(draft->samples);
     draft->freedom = crease_system_freedom(&draft->system);
-    if (draft->fixed_lambda >= 0.0 || draft->freedom <= MOST_FREEDOM * n)
-        draft->score = 2.0 * n * log(draft->mean + floor) + draft->freedom * log(n);
-    return CREASE_OK;
+    const double price = log(n) * n / (n - 2.0 * fmin(draft->freedom, MOST_FREEDOM * n));
+    draft->score = draft->fixed_lambda >= 0.0 || draft->freedom <= MOST_FREEDOM * n
+        ? 2.0 * n * log(draft->mean + floor) + draft->freedom * price
+        : INFINITY;
+}
+
+/* The score stays infinite where the equations have no solution. */
+static crease_status try_lambda(crease_context *context, crease_draft *draft, double lambda)
+{
+    bool solved;
+    draft->score = INFINITY;
+    const crease_status status = solve(context, draft, lambda, &solved);
+    if (status == CREASE_OK && solved)
+        evaluate(draft);
+    return status;
 }
 
 static crease_status try_number(
@@ -70,62 +90,112 @@ static crease_status try_number(
     return status;
 }
 
-/* Leaves the number of the best bending weight in the draft. */
+/* The best of all bending weights. */
+static crease_status choose_of_all(
+    crease_context *context, crease_draft *draft, double *best, int *taken)
+{
+    crease_status status = CREASE_OK;
+    for (int i = 0; i < CREASE_LAMBDAS && status == CREASE_OK; i++)
+        status = try_number(context, draft, i, best, taken);
+    return status;
+}
+
+/* From the one last taken upwards, and downwards, as long as it gets better. */
+static crease_status choose_near(
+    crease_context *context, crease_draft *draft, double *best, int *taken)
+{
+    const int start = draft->lambda;
+    crease_status status = try_number(context, draft, start, best, taken);
+    for (int i = start + 1;
+         i < CREASE_LAMBDAS && (*taken == i - 1 || !(*best < INFINITY)) && status == CREASE_OK; i++)
+        status = try_number(context, draft, i, best, taken);
+    const int from = *taken == start ? start - 1 : -1;
+    for (int i = from; i >= 0 && status == CREASE_OK && (i == from || *taken == i + 1); i--)
+        status = try_number(context, draft, i, best, taken);
+    return status;
+}
+
+static crease_status not_determined(crease_context *context, const crease_draft *draft)
+{
+    return crease_fail(context, CREASE_ERROR_NUMERIC,
+        "fit: %zu control points are not determined by the points; ask for fewer, or for some "
+        "smoothing",
+        draft->system.size);
+}
+
+/* Leaves the solution with the best bending weight in the draft. */
 static crease_status choose_lambda(crease_context *context, crease_draft *draft, bool all)
 {
     double best = INFINITY;
     int taken = draft->lambda;
-    crease_status status = CREASE_OK;
-    if (all) {
-        for (int i = 0; i < CREASE_LAMBDAS && status == CREASE_OK; i++)
-            status = try_number(context, draft, i, &best, &taken);
-    } else {
-        const int start = draft->lambda;
-        status = try_number(context, draft, start, &best, &taken);
-        for (int i = start + 1;
-             i < CREASE_LAMBDAS && (taken == i - 1 || !(best < INFINITY)) && status == CREASE_OK;
-             i++)
-            status = try_number(context, draft, i, &best, &taken);
-        const int from = taken == start ? start - 1 : -1;
-        for (int i = from; i >= 0 && status == CREASE_OK && (i == from || taken == i + 1); i--)
-            status = try_number(context, draft, i, &best, &taken);
-    }
+    crease_status status = all ? choose_of_all(context, draft, &best, &taken)
+                               : choose_near(context, draft, &best, &taken);
     draft->lambda = taken;
-    return status;
-}
-
-static crease_status solve(crease_context *context, crease_draft *draft, bool all)
-{
-    crease_status status =
-        crease_system_assemble(context, &draft->system, &draft->height, draft->samples);
-    if (status == CREASE_OK && draft->fixed_lambda < 0.0)
-        status = choose_lambda(context, draft, all);
-    if (status == CREASE_OK)
-        status = try_lambda(context, draft,
-            draft->fixed_lambda < 0.0 ? LAMBDAS[draft->lambda] : draft->fixed_lambda);
+    if (status == CREASE_OK && draft->system.lambda != LAMBDAS[taken])
+        status = try_lambda(context, draft, LAMBDAS[taken]);
     if (status == CREASE_OK && !(draft->score < INFINITY))
-        status = crease_fail(context, CREASE_ERROR_NUMERIC,
-            "fit: %zu control points are not determined by the points; ask for fewer, or for some "
-            "smoothing",
-            draft->system.size);
+        status = not_determined(context, draft);
     return status;
 }
 
-crease_status crease_draft_fit(crease_context *context, crease_draft *draft, int rounds, bool all)
+static crease_status keep_lambda(crease_context *context, crease_draft *draft, bool last)
 {
-    crease_draft_free(draft);
-    crease_status status = crease_height_create(context, &draft->layout, &draft->height);
-    if (status == CREASE_OK)
-        status = crease_system_create(context, &draft->height, &draft->system);
-    for (int round = 0; round < rounds && status == CREASE_OK; round++) {
-        if (round > 0)
-            crease_samples_reweigh(
-                draft->samples, crease_samples_scale(draft->samples), draft->redescending);
-        if (round > 0 && draft->orthogonal)
-            status =
-                crease_samples_project(context, draft->samples, &draft->height, &draft->layout);
-        if (status == CREASE_OK)
-            status = solve(context, draft, all && draft->system.size <= FEW_UNKNOWNS);
+    bool solved = false;
+    crease_status status = CREASE_OK;
+    if (draft->fixed_lambda >= 0.0)
+        status = solve(context, draft, draft->fixed_lambda, &solved);
+    for (; draft->fixed_lambda < 0.0 && status == CREASE_OK; draft->lambda++) {
+        status = solve(context, draft, LAMBDAS[draft->lambda], &solved);
+        if (solved || draft->lambda + 1 == CREASE_LAMBDAS)
+            break;
     }
+    if (status == CREASE_OK && !solved)
+        return not_determined(context, draft);
+    if (status == CREASE_OK && last)
+        evaluate(draft);
+    return status;
+}
+
+static double weight_of_tension(const crease_samples *samples, double scale)
+{
+    return RISE * pow(scale / hypot(samples->range, samples->spacing), 2.0);
+}
+
+static crease_status fit_round(
+    crease_context *context, crease_draft *draft, int round, bool last, crease_choice choice)
+{
+    crease_status status = CREASE_OK;
+    double scale = FIRST_SCALE * draft->samples->range;
+    if (round > 0) {
+        scale = crease_samples_scale(draft->samples);
+        crease_samples_reweigh(draft->samples, scale, draft->redescending);
+    }
+    draft->system.hold = weight_of_tension(draft->samples, scale);
+    if (round > 0 && draft->orthogonal)
+        status = crease_samples_project(context, draft->samples, &draft->height, &draft->layout);
+    if (status == CREASE_OK)
+        status = crease_system_assemble(context, &draft->system, &draft->height, draft->samples);
+    if (status != CREASE_OK)
+        return status;
+    if (choice == CREASE_CHOICE_NONE || draft->fixed_lambda >= 0.0 || (round > 0 && !last))
+        return keep_lambda(context, draft, last);
+    return choose_lambda(
+        context, draft, choice == CREASE_CHOICE_ALL && draft->system.size <= FEW_UNKNOWNS);
+}
+
+crease_status crease_draft_fit(
+    crease_context *context, crease_draft *draft, int rounds, crease_choice choice)
+{
+    crease_gaps gaps;
+    crease_draft_free(draft);
+    crease_status status = crease_gaps_create(context, draft->samples, &draft->layout, &gaps);
+    if (status == CREASE_OK)
+        status = crease_height_create(context, &draft->layout, &draft->height);
+    if (status == CREASE_OK)
+        status = crease_system_create(context, &draft->height, &gaps, &draft->system);
+    crease_gaps_free(&gaps);
+    const int times = draft->samples->count <= FEW_POINTS ? MORE_ROUNDS * rounds : rounds;
+    for (int round = 0; round < times && status == CREASE_OK; round++)
+        status = fit_round(context, draft, round, round == times - 1, choice);
     return status;
 }

@@ -11,6 +11,13 @@
  */
 enum { CREASE_LAMBDAS = 9 };
 
+/* Which bending weights a fit tries. */
+typedef enum crease_choice {
+    CREASE_CHOICE_NONE, /* the one last taken */
+    CREASE_CHOICE_NEAR, /* those near the one last taken */
+    CREASE_CHOICE_ALL   /* every one when there are few control points */
+} crease_choice;
+
 typedef struct crease_draft {
     crease_samples *samples; /* not owned */
     crease_frame frame;
@@ -28,14 +35,16 @@ typedef struct crease_draft {
 
 /* Puts the samples into the draft's frame, and the ends of the domain around them. */
 void crease_draft_place(crease_draft *draft);
-/* Fits the height to the samples as placed, robustly, in some rounds. The bending weight is the one
- * with the lowest score; with `all` every one is tried, else those near the one last taken.
+/* Fits the height to the samples as placed, robustly, in some rounds (more when the points are
+ * few). The bending weight is the one with the lowest score of those tried. An orthogonal fit must
+ * not choose: a steep sheet is near to every point.
  *
  * The score is 2 n log(mean distance) + freedom log n: the Bayesian information criterion for
  * errors of Laplace's distribution, which has wide tails.
  * Based on: Schwarz. Estimating the dimension of a model. 1978.
  * Errors: NUMERIC, NO_MEMORY, CANCELLED. */
-crease_status crease_draft_fit(crease_context *context, crease_draft *draft, int rounds, bool all);
+crease_status crease_draft_fit(
+    crease_context *context, crease_draft *draft, int rounds, crease_choice choice);
 /* Frees what the draft owns. */
 void crease_draft_free(crease_draft *draft);
 /* The draft with another layout and frame, not fitted yet, otherwise alike. */

@@ -41,7 +41,7 @@ static crease_status try_layout(crease_context *context, crease_draft *draft,
 {
     *taken = false;
     crease_draft trial = crease_draft_variant(draft, layout, &draft->frame);
-    const crease_status status = crease_draft_fit(context, &trial, ROUNDS, true);
+    const crease_status status = crease_draft_fit(context, &trial, ROUNDS, CREASE_CHOICE_ALL);
     if (status == CREASE_OK && trial.score < draft->score - margin) {
         crease_draft_free(draft);
         *draft = trial;
@@ -57,11 +57,11 @@ static crease_status try_candidate(crease_context *context, crease_draft *draft,
 {
     *taken = false;
     crease_layout layout = draft->layout;
-    const double gap = 0.05 * draft->samples->spacing;
     const crease_layout_axis *const axis = &layout.axis[candidate->direction];
     bool fits = axis->line_count + (size_t)candidate->count <= bounds->creases;
     for (int i = 0; i < candidate->count && fits; i++)
-        fits = crease_layout_add(&layout, candidate->direction, candidate->at[i], gap);
+        fits = crease_layout_add(
+            &layout, candidate->direction, candidate->at[i], draft->samples->spacing);
     if (!fits || !crease_explore_keep_net(&layout, bounds) || unknowns(&layout) > MOST_UNKNOWNS)
         return CREASE_OK;
     return try_layout(context, draft, &layout, MARGIN, taken);
@@ -153,7 +153,7 @@ crease_status crease_explore(crease_context *context, crease_draft *draft,
     const crease_bounds *bounds, const crease_candidate *candidates, size_t count, bool turn)
 {
     int refined = 0;
-    crease_status status = crease_draft_fit(context, draft, ROUNDS, true);
+    crease_status status = crease_draft_fit(context, draft, ROUNDS, CREASE_CHOICE_ALL);
     for (size_t i = 0; i < count && status == CREASE_OK; i++) {
         bool taken;
         status = try_candidate(context, draft, bounds, &candidates[i], &taken);
@@ -195,7 +195,7 @@ crease_status crease_explore_prune(
     crease_context *context, crease_draft *draft, const crease_bounds *bounds)
 {
     crease_draft_place(draft);
-    crease_status status = crease_draft_fit(context, draft, ROUNDS, false);
+    crease_status status = crease_draft_fit(context, draft, ROUNDS, CREASE_CHOICE_NEAR);
     if (status == CREASE_OK)
         status = thin_out(context, draft, bounds);
     /* A simple knot of order 2 is a crease itself. */

@@ -143,9 +143,11 @@ static crease_status finish(crease_context *context, work *w, crease_samples *sa
 {
     const bool turn = w->options->orientation == CREASE_ORIENTATION_AUTOMATIC;
     crease_status status = draft_samples(context, w, 1, samples);
+    if (status == CREASE_OK)
+        status = crease_draft_fit(context, &w->draft, 3, CREASE_CHOICE_NEAR);
     w->draft.redescending = w->draft.orthogonal = true;
     if (status == CREASE_OK)
-        status = crease_draft_fit(context, &w->draft, 6, w->count <= MOST_EXPLORED);
+        status = crease_draft_fit(context, &w->draft, 4, CREASE_CHOICE_NONE);
     if (status == CREASE_OK)
         status = crease_lines_refine(context, &w->draft, w->count > MOST_EXPLORED ? 2 : 8, turn);
     if (status == CREASE_OK)

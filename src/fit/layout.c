@@ -5,6 +5,10 @@
 
 #include <string.h>
 
+/* In spacings: nearer to the border, too few points hold the sheet beyond the line; a step is a
+ * pair of lines close together. */
+static const double TO_BORDER = 0.5, TO_LINE = 0.05;
+
 size_t crease_layout_count(const crease_layout *layout, int direction)
 {
     const crease_layout_axis *const axis = &layout->axis[direction];
@@ -48,11 +52,12 @@ void crease_layout_knots(const crease_layout *layout, int direction, double *kno
     }
 }
 
-bool crease_layout_add(crease_layout *layout, int direction, double at, double gap)
+bool crease_layout_add(crease_layout *layout, int direction, double at, double spacing)
 {
     crease_layout_axis *const axis = &layout->axis[direction];
-    if (axis->line_count == CREASE_MOST_LINES || !(at - axis->low > gap) ||
-        !(axis->high - at > gap))
+    const double border = TO_BORDER * spacing, gap = TO_LINE * spacing;
+    if (axis->line_count == CREASE_MOST_LINES || !(at - axis->low > border) ||
+        !(axis->high - at > border))
         return false;
     size_t place = 0;
     while (place < axis->line_count && axis->lines[place] < at)

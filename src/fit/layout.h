@@ -27,9 +27,9 @@ typedef struct crease_layout {
 size_t crease_layout_count(const crease_layout *layout, int direction);
 /* The knots: order times at the ends of the domain, order - 1 times at a line. */
 void crease_layout_knots(const crease_layout *layout, int direction, double *knots);
-/* Adds a line; false when there is no room, or when it would come nearer than `gap` to another line
- * or to the border. */
-bool crease_layout_add(crease_layout *layout, int direction, double at, double gap);
+/* Adds a line; false when there is no room, or when it would come too near to another line or to
+ * the border, measured in spacings of the points. */
+bool crease_layout_add(crease_layout *layout, int direction, double at, double spacing);
 void crease_layout_remove(crease_layout *layout, int direction, size_t line);
 /* The part of the domain between lines that holds t. */
 void crease_layout_between(

@@ -17,9 +17,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST = 2 * CREASE_MOST_LINES + 1, HALVINGS = 5 };
+enum { MOST = 2 * CREASE_MOST_LINES + 1, HALVINGS = 5, MOST_ROWS = 16 };
 
-static const double LEAST_DETERMINED = 1e-7; /* share of a column not explained by the others */
+static const double WORTH = 0.01;  /* log likelihood */
+static const double EXACT = 1e-10; /* mean distance in spacings at which there is nothing to gain */
+static const double LEAST_DETERMINED = 1e-9; /* share of a column not explained by the others */
 
 /* The small system: reduced[i][j] of the steps, their right side, and which are determined. */
 typedef struct equations {
@@ -91,6 +93,62 @@ static void add_sample(const crease_draft *draft, size_t i, equations *e, double
     }
 }
 
+/* Points by their distance from a line, in half spacings, on either side. */
+typedef struct beside {
+    size_t points[2][MOST_ROWS];
+} beside;
+
+static void count_beside(const crease_draft *draft, int direction, double at, beside *out)
+{
+    const crease_samples *const s = draft->samples;
+    double part[2][2];
+    memset(out, 0, sizeof *out);
+    crease_layout_between(&draft->layout, direction, at, part[1]);
+    crease_layout_between(&draft->layout, direction, nextafter(at, -INFINITY), part[0]);
+    for (size_t i = 0; i < s->count; i++) {
+        const double p = s->points[3 * i + (size_t)direction], off = p - at;
+        const double row = floor(2.0 * fabs(off) / s->spacing + 0.5);
+        if (!(s->prior[i] > 0.0) || !(row < MOST_ROWS) || p < part[0][0] || p > part[1][1])
+            continue;
+        if (off <= 0.0 || row == 0.0)
+            out->points[0][(size_t)row]++;
+        if (off >= 0.0 || row == 0.0)
+            out->points[1][(size_t)row]++;
+    }
+}
+
+/* Two rows of points lie on a plane wherever the line is: of three rows or more, those with many
+ * points, some side must tell. */
+static bool rows_tell(const crease_draft *draft, int direction, double at)
+{
+    beside b;
+    size_t fullest = 0;
+    count_beside(draft, direction, at, &b);
+    for (int side = 0; side < 2; side++)
+        for (size_t i = 0; i < MOST_ROWS; i++)
+            fullest = b.points[side][i] > fullest ? b.points[side][i] : fullest;
+    bool tell = false;
+    for (int side = 0; side < 2; side++) {
+        size_t rows = 0;
+        for (size_t i = 0; i < MOST_ROWS; i++)
+            rows += b.points[side][i] > 0 && 3 * b.points[side][i] >= fullest;
+        tell = tell || rows > 2;
+    }
+    return tell;
+}
+
+static void hold_undetermined(const crease_draft *draft, const double *whole, equations *e)
+{
+    size_t column = 0;
+    for (int d = 0; d < 2; d++)
+        for (size_t l = 0; l < draft->layout.axis[d].line_count; l++, column++)
+            e->free[column] = rows_tell(draft, d, draft->layout.axis[d].lines[l]);
+    if (column < e->count)
+        e->free[column] = true;
+    for (size_t c = 0; c < e->count; c++)
+        e->free[c] = e->free[c] && e->reduced[c * MOST + c] > LEAST_DETERMINED * whole[c];
+}
+
 /* Eliminates the control points. */
 static crease_status build(
     crease_context *context, const crease_draft *draft, bool turn, equations *e)
@@ -108,13 +166,14 @@ static crease_status build(
     double *const solved = mixed + MOST * size;
     memcpy(solved, mixed, e->count * size * sizeof *mixed);
     crease_system_solve_many(&draft->system, solved, e->count);
+    double whole[MOST];
     for (size_t c = 0; c < e->count; c++) {
-        const double whole = e->reduced[c * MOST + c];
+        whole[c] = e->reduced[c * MOST + c];
         for (size_t k = 0; k < e->count; k++)
             for (size_t i = 0; i < size; i++)
                 e->reduced[c * MOST + k] -= mixed[c * size + i] * solved[k * size + i];
-        e->free[c] = e->reduced[c * MOST + c] > LEAST_DETERMINED * whole;
     }
+    hold_undetermined(draft, whole, e);
     free(mixed);
     return CREASE_OK;
 }
@@ -158,13 +217,13 @@ static bool moved(
 {
     crease_layout layout = draft->layout;
     crease_frame frame = draft->frame;
-    const double gap = 0.05 * draft->samples->spacing, most = 3.0 * draft->samples->spacing;
+    const double spacing = draft->samples->spacing, most = 3.0 * spacing;
     size_t column = 0;
     for (int d = 0; d < 2; d++) {
         layout.axis[d].line_count = 0;
         for (size_t l = 0; l < draft->layout.axis[d].line_count; l++)
             if (!crease_layout_add(&layout, d,
-                    draft->layout.axis[d].lines[l] + share * limit(step[column++], most), gap))
+                    draft->layout.axis[d].lines[l] + share * limit(step[column++], most), spacing))
                 return false;
     }
     if (turn)
@@ -173,20 +232,22 @@ static bool moved(
     return true;
 }
 
-/* Takes the largest of 1, 1/2, 1/4 .. of the step that is a gain; else the draft stays. */
+/* Takes the largest of 1, 1/2, 1/4 .. of the step that brings a gain worth a trial; else the draft
+ * stays. */
 static crease_status walk(
     crease_context *context, crease_draft *draft, const double *step, bool turn, bool *gained)
 {
-    *gained = false;
+    const double least = draft->mean * exp(-WORTH / draft->samples->used);
     double share = 1.0;
+    *gained = false;
     for (int i = 0; i < HALVINGS; i++, share *= 0.5) {
         crease_draft trial;
         if (!moved(draft, step, share, turn, &trial))
             continue;
         crease_draft_place(&trial);
         const crease_status status =
-            crease_draft_fit(context, &trial, draft->orthogonal ? 4 : 3, false);
-        if (status == CREASE_OK && trial.mean < draft->mean * (1.0 - 1e-9)) {
+            crease_draft_fit(context, &trial, draft->orthogonal ? 4 : 3, CREASE_CHOICE_NONE);
+        if (status == CREASE_OK && trial.mean < least) {
             crease_draft_free(draft);
             *draft = trial;
             *gained = true;
@@ -204,6 +265,7 @@ crease_status crease_lines_refine(
 {
     if (line_count(&draft->layout) == 0)
         return CREASE_OK;
+    const double exact = fmax(4.0 * draft->samples->rounding, EXACT * draft->samples->spacing);
     crease_status status = CREASE_OK;
     bool gained = true;
     for (int i = 0; i < steps && gained && status == CREASE_OK; i++) {
@@ -211,12 +273,13 @@ crease_status crease_lines_refine(
         double step[MOST];
         gained = false;
         status = build(context, draft, turn, &e);
-        if (status == CREASE_OK && solve(&e, step) && draft->mean > 4.0 * draft->samples->rounding)
+        if (status == CREASE_OK && solve(&e, step) && draft->mean > exact)
             status = walk(context, draft, step, turn, &gained);
     }
-    if (status == CREASE_OK && !gained) {
+    if (status == CREASE_OK) {
         crease_draft_place(draft);
-        status = crease_draft_fit(context, draft, draft->orthogonal ? 4 : 3, false);
+        status = crease_draft_fit(context, draft, draft->orthogonal ? 4 : 3,
+            draft->orthogonal ? CREASE_CHOICE_NONE : CREASE_CHOICE_NEAR);
     }
     return status;
 }

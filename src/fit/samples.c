@@ -14,6 +14,9 @@
 
 enum { GRAIN = 16384, FOOT_STEPS = 3 };
 
+/* Of an outlier: next to nothing, but where there are only outliers they must do. */
+static const double LEAST_WEIGHT = 1e-7;
+
 static crease_status allocate_all(crease_context *context, crease_samples *s)
 {
     s->points = crease_allocate(context, s->count, 3 * sizeof(double));
@@ -67,6 +70,7 @@ void crease_samples_free(crease_samples *samples)
 void crease_samples_place(
     crease_samples *samples, const crease_frame *frame, double low[2], double high[2])
 {
+    double bottom = INFINITY, top = -INFINITY;
     for (int c = 0; c < 2; c++)
         low[c] = INFINITY, high[c] = -INFINITY;
     for (size_t i = 0; i < samples->count; i++) {
@@ -79,9 +83,14 @@ void crease_samples_place(
                 high[c] = fmax(high[c], p[c]);
             }
         }
+        if (samples->prior[i] > 0.0) {
+            bottom = fmin(bottom, p[2]);
+            top = fmax(top, p[2]);
+        }
         samples->target[i] = p[2];
         samples->tilt[i] = 1.0;
     }
+    samples->range = fmax(0.0, top - bottom);
 }
 
 /* ---------------------------------------------------------------------------------- distances --
@@ -191,8 +200,8 @@ void crease_samples_reweigh(crease_samples *samples, double scale, bool redescen
 {
     for (size_t i = 0; i < samples->count; i++) {
         const double r = samples->residual[i] / scale;
-        const double robust =
-            redescending ? 1.0 / (1.0 + r * r / 5.6) : 1.0 / sqrt(1.0 + r * r / 2.25);
+        const double robust = redescending ? LEAST_WEIGHT + 1.0 / (1.0 + r * r / 5.6)
+                                           : 1.0 / sqrt(1.0 + r * r / 2.25);
         samples->weight[i] = samples->prior[i] * robust;
     }
 }

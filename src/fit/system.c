@@ -9,10 +9,14 @@
 
 #include <cblas.h>
 #include <lapacke.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { STREAM_PROBES = 0xf17, FEW_UNKNOWNS = 128 };
+
+/* Weight of the tension in shares of the data's: enough to determine what the data do not. */
+static const double LEAST_HOLD = 1e-13;
 
 /* Random signs, for an estimated trace; set once. */
 static void set_signs(crease_system *system)
@@ -26,8 +30,8 @@ static void set_signs(crease_system *system)
         }
 }
 
-crease_status crease_system_create(
-    crease_context *context, const crease_height *height, crease_system *out)
+crease_status crease_system_create(crease_context *context, const crease_height *height,
+    const crease_gaps *gaps, crease_system *out)
 {
     const size_t rows = height->count[0], columns = height->count[1];
     const size_t degree = (size_t)height->order - 1;
@@ -38,13 +42,15 @@ crease_status crease_system_create(
     const size_t bytes = out->width * sizeof(double);
     out->normal = crease_allocate(context, out->size, bytes);
     out->bending = crease_allocate(context, out->size, bytes);
+    if (gaps->empty)
+        out->tension = crease_allocate(context, out->size, bytes);
     out->factor = crease_allocate(context, out->size, bytes);
     out->right = crease_allocate(context, out->size, sizeof(double));
     out->solution = crease_allocate(context, out->size, sizeof(double));
     out->probes = crease_allocate(context, out->size, 2 * CREASE_PROBES * sizeof(double));
-    crease_status status =
-        out->normal && out->bending && out->factor && out->right && out->solution && out->probes
-        ? crease_bending_fill(context, height, out)
+    crease_status status = out->normal && out->bending && (out->tension || !gaps->empty) &&
+            out->factor && out->right && out->solution && out->probes
+        ? crease_bending_fill(context, height, gaps, out)
         : CREASE_ERROR_NO_MEMORY;
     if (status != CREASE_OK)
         crease_system_free(out);
@@ -57,6 +63,7 @@ void crease_system_free(crease_system *system)
 {
     free(system->normal);
     free(system->bending);
+    free(system->tension);
     free(system->factor);
     free(system->right);
     free(system->solution);
@@ -79,9 +86,16 @@ static double trace(const crease_system *system, const double *matrix)
 
 bool crease_system_factor(crease_system *system, double lambda)
 {
-    const double share = lambda * trace(system, system->normal) / trace(system, system->bending);
-    for (size_t i = 0; i < system->size * system->width; i++)
+    const size_t entries = system->size * system->width;
+    const double whole = trace(system, system->normal);
+    const double share = lambda * whole / trace(system, system->bending);
+    for (size_t i = 0; i < entries; i++)
         system->factor[i] = system->normal[i] + share * system->bending[i];
+    if (system->tension) {
+        const double hold = fmax(system->hold, LEAST_HOLD * whole / trace(system, system->tension));
+        for (size_t i = 0; i < entries; i++)
+            system->factor[i] += hold * system->tension[i];
+    }
     system->lambda = lambda;
     return LAPACKE_dpbtrf_work(LAPACK_COL_MAJOR, 'L', (lapack_int)system->size,
                (lapack_int)system->width - 1, system->factor, (lapack_int)system->width) == 0;
