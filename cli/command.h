@@ -25,6 +25,7 @@ crease_status detect_run(crease_context *context, const settings *s, report *r);
 crease_status fit_run(crease_context *context, const settings *s, report *r);
 crease_status example_run(crease_context *context, const settings *s, report *r);
 crease_status reproduce_run(crease_context *context, const settings *s, report *r);
+crease_status compare_run(crease_context *context, const settings *s, report *r);
 crease_status info_run(crease_context *context, const settings *s, report *r);
 
 #endif

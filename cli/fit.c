@@ -4,6 +4,7 @@
 /* crease fit: a surface that keeps its sharp edges. */
 #include "cad.h"
 #include "command.h"
+#include "deviation.h"
 #include "input.h"
 #include "target.h"
 
@@ -90,37 +91,6 @@ static crease_status make_result(
     return status;
 }
 
-typedef struct deviation_summary {
-    double rms, p95, most;
-} deviation_summary;
-
-static int ascending(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static deviation_summary summarise(const double *deviations, size_t count)
-{
-    deviation_summary summary = {0, 0, 0};
-    double *size = calloc(count ? count : 1, sizeof *size);
-    double square = 0;
-    if (!size || !count) {
-        free(size);
-        return summary;
-    }
-    for (size_t i = 0; i < count; i++) {
-        size[i] = fabs(deviations[i]);
-        square += deviations[i] * deviations[i];
-    }
-    qsort(size, count, sizeof *size, ascending);
-    summary.rms = sqrt(square / (double)count);
-    summary.p95 = size[(count - 1) * 95 / 100];
-    summary.most = size[count - 1];
-    free(size);
-    return summary;
-}
-
 static void describe_lines(report *r, const result *all)
 {
     cJSON *list = cJSON_AddArrayToObject(r->root, "creases");
@@ -161,12 +131,9 @@ static void describe_surface(report *r, const crease_surface *surface)
 static void describe(report *r, const result *all)
 {
     const size_t count = crease_sheet_point_count(all->sheet);
-    const deviation_summary d = summarise(crease_sheet_deviations(all->sheet), count);
+    const deviation_summary d = deviation_summarise(crease_sheet_deviations(all->sheet), count);
     const crease_surface_parts parts = crease_surface_parts_of(crease_sheet_surface(all->sheet));
-    cJSON *object = cJSON_AddObjectToObject(r->root, "deviation");
-    cJSON_AddNumberToObject(object, "rms", d.rms);
-    cJSON_AddNumberToObject(object, "p95", d.p95);
-    cJSON_AddNumberToObject(object, "max", d.most);
+    deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
     cJSON_AddNumberToObject(r->root, "faces", (double)all->face_count);
     report_line(r, "%zu x %zu control points, %zu faces, %zu creases", parts.count[0],
         parts.count[1], all->face_count, all->line_count);

@@ -9,7 +9,7 @@ crease_status input_path(
     if (s->input_count == 0)
         return crease_context_fail(
             context, CREASE_ERROR_ARGUMENT, "an argument is missing: %s", what);
-    *out = s->inputs[0];
+    *out = s->inputs[s->input_count - 1];
     return CREASE_OK;
 }
 

@@ -28,6 +28,17 @@ const command commands[] = {
         "smooth piece; .obj .stl .ply .glb a mesh; .png .svg .pdf a figure; .html a page to turn "
         "and pick points in; .json the report.",
         fit_run},
+    {"compare", FOR_COMPARE, "compare MODEL CLOUD [-o FILE] [OPTIONS]",
+        "tell how far a cloud is from a CAD model",
+        "Measures the distance of every point from the nearest face of a CAD model. Both must lie "
+        "in the same place, and be in the same unit.\n\n"
+        "MODEL is a STEP, IGES or BREP file; CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, "
+        "STL or OFF file; - is standard input.\n"
+        "What FILE gets depends on its extension: .ply .xyz .txt .csv .asc .pts the cloud with the "
+        "fields `deviation` (positive outside) and `face` (number of the nearest face, from 0, in "
+        "the order of MODEL); .png .svg .pdf a figure; .html a page to turn and pick points in; "
+        ".json the report, with mean, rms, 95 % and greatest deviation for every face.",
+        compare_run},
     {"info", FOR_INFO, "info FILE [OPTIONS]", "tell what a cloud or a CAD model holds",
         "Reads a cloud (PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL, OFF) or a CAD model (STEP, "
         "IGES, BREP) and tells what it holds.",

@@ -14,8 +14,9 @@ static const char *const method_names[] = {"sheet", "averaging", NULL};
 static const char *const orientation_names[] = {"automatic", "none", NULL};
 
 const option option_table[] = {
-    {"output", 'o', OPTION_OUTPUT, "FILE", FOR_DETECT | FOR_FIT | FOR_EXAMPLE | FOR_REPRODUCE, 0, 0,
-        0, NULL, "what to write; may be given several times, the extension says what", "nothing"},
+    {"output", 'o', OPTION_OUTPUT, "FILE",
+        FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_EXAMPLE | FOR_REPRODUCE, 0, 0, 0, NULL,
+        "what to write; may be given several times, the extension says what", "nothing"},
     {"creases", 0, OPTION_PATH, "FILE", FOR_DETECT | FOR_FIT, AT(creases), 0, 0, NULL,
         "write the creases: as lines to .ply, .obj or .csv, as the curves that they are to .step, "
         ".stp, .iges, .igs or .brep",
@@ -24,7 +25,7 @@ const option option_table[] = {
         "write the cloud projected onto the surface, with the field `deviation`: .ply, .xyz, .csv, "
         "...",
         "not written"},
-    {"report", 0, OPTION_PATH, "FILE", FOR_DETECT | FOR_FIT, AT(report), 0, 0, NULL,
+    {"report", 0, OPTION_PATH, "FILE", FOR_DETECT | FOR_FIT | FOR_COMPARE, AT(report), 0, 0, NULL,
         "write the report as JSON", "not written"},
     {"method", 'm', OPTION_CHOICE, "NAME", FOR_FIT, AT(method), 0, 0, method_names,
         "`sheet`: creases are knot lines placed where the data show them; `averaging`: the paper's "
@@ -75,8 +76,9 @@ const option option_table[] = {
         "points of the panel", "20000"},
     {"seeds", 0, OPTION_INTEGER, "N", FOR_REPRODUCE, AT(seeds), 1, 100000, NULL,
         "random repetitions for each noise level", NULL},
-    {"skip-invalid", 0, OPTION_FLAG, NULL, FOR_DETECT | FOR_FIT | FOR_INFO, AT(read.skip_invalid),
-        0, 0, NULL, "leave out points that are not finite numbers instead of stopping", NULL},
+    {"skip-invalid", 0, OPTION_FLAG, NULL, FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_INFO,
+        AT(read.skip_invalid), 0, 0, NULL,
+        "leave out points that are not finite numbers instead of stopping", NULL},
     {"seed", 's', OPTION_SEED, "N", FOR_DETECT | FOR_FIT | FOR_EXAMPLE | FOR_REPRODUCE, AT(seed), 0,
         0, NULL, "seed of every random draw", NULL},
     {"threads", 't', OPTION_INTEGER, "N", FOR_ALL, AT(threads), 0, 1024, NULL,
@@ -316,7 +318,7 @@ bool options_parse(int commands, const char *command, int count, char **argument
         } else if (!only_files && word[0] == '-' && word[1]) {
             if (!parse_option(commands, command, count, arguments, &next, s))
                 return false;
-        } else if (s->input_count == MOST_INPUTS) {
+        } else if (s->input_count == (commands == FOR_COMPARE ? MOST_INPUTS : 1)) {
             return complain(command, "'%s' is one argument too many", word);
         } else {
             s->inputs[s->input_count++] = word;

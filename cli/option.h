@@ -17,7 +17,8 @@ enum {
     FOR_INFO = 4,
     FOR_EXAMPLE = 8,
     FOR_REPRODUCE = 16,
-    FOR_ALL = 31
+    FOR_COMPARE = 32,
+    FOR_ALL = 63
 };
 
 typedef enum option_kind {

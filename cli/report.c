@@ -69,7 +69,7 @@ bool report_begin(report *r, const char *command, int command_bit, const setting
     cJSON_AddStringToObject(r->root, "version", crease_version());
     cJSON_AddStringToObject(r->root, "command", command);
     if (s->input_count)
-        cJSON_AddStringToObject(r->root, "input", s->inputs[0]);
+        cJSON_AddStringToObject(r->root, "input", s->inputs[s->input_count - 1]);
     add_options(r->root, command_bit, s);
     r->timings = cJSON_AddObjectToObject(r->root, "seconds");
     return r->timings != NULL;

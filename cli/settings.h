@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { MOST_OUTPUTS = 16, MOST_INPUTS = 1 };
+enum { MOST_OUTPUTS = 16, MOST_INPUTS = 2 };
 
 typedef enum fit_method { METHOD_SHEET, METHOD_AVERAGING } fit_method;
 

@@ -615,6 +615,20 @@ typedef struct crease_mesh crease_mesh;
  * sharp when shaded). tolerance 0: 1/2000 of the diagonal. */
 CREASE_API crease_status crease_mesh_create(crease_context *context,
     const crease_surface *const *surfaces, size_t count, double tolerance, crease_mesh **out);
+/** Triangles from elsewhere. */
+typedef struct crease_mesh_parts {
+    size_t vertex_count, triangle_count;
+    const double *vertices;    /**< vertex_count x 3 */
+    const uint32_t *triangles; /**< triangle_count x 3: numbers of vertices, counterclockwise seen
+                                    from where the normal points */
+    const uint32_t *owners;    /**< of the triangles; NULL: all 0 */
+} crease_mesh_parts;
+
+/** A mesh of given triangles, copied. Normals are those of the triangles around a vertex, weighted
+ * by their areas: split vertices where edges are sharp. Errors: ARGUMENT (a triangle with a vertex
+ * that there is not), VALUE (a coordinate that is not finite), NO_MEMORY. */
+CREASE_API crease_status crease_mesh_from_parts(
+    crease_context *context, const crease_mesh_parts *parts, crease_mesh **out);
 CREASE_API void crease_mesh_free(crease_mesh *mesh);
 CREASE_API size_t crease_mesh_vertex_count(const crease_mesh *mesh);
 CREASE_API size_t crease_mesh_triangle_count(const crease_mesh *mesh);
@@ -623,6 +637,20 @@ CREASE_API const double *crease_mesh_normals(const crease_mesh *mesh);     /**< 
 CREASE_API const uint32_t *crease_mesh_triangles(const crease_mesh *mesh); /**< count x 3 */
 /** Number of the surface that each triangle belongs to. */
 CREASE_API const uint32_t *crease_mesh_owners(const crease_mesh *mesh);
+
+/** Where a point falls on a mesh. */
+typedef struct crease_mesh_foot {
+    double point[3];   /**< the closest point of the mesh */
+    double distance;   /**< from the point asked for, signed: positive on the side from which the
+                            triangle's corners are seen counterclockwise */
+    uint32_t triangle; /**< where it lies; of several, the one that faces the point most */
+} crease_mesh_foot;
+
+/** The closest point of the mesh for each of count points. Threaded; O(log triangles) for a point
+ * near the mesh. feet: count of them. Errors: ARGUMENT (no triangle), VALUE (a coordinate that is
+ * not finite), NO_MEMORY, CANCELLED. */
+CREASE_API crease_status crease_mesh_project(crease_context *context, const crease_mesh *mesh,
+    const double *points, size_t count, crease_mesh_foot *feet);
 
 /* ----------------------------------------------------------------------------------- writing -- */
 
@@ -665,6 +693,10 @@ CREASE_API crease_status crease_scene_add_cloud(
 /** Adds surfaces as one layer, and their control nets as another when nets is true. */
 CREASE_API crease_status crease_scene_add_surfaces(crease_context *context, crease_scene *scene,
     const char *name, const crease_surface *const *surfaces, size_t count, bool nets);
+/** Adds a mesh as one layer of surfaces, its triangles' owners being the surfaces. Sides of
+ * triangles that share no vertices with others are drawn as edges. */
+CREASE_API crease_status crease_scene_add_mesh(
+    crease_context *context, crease_scene *scene, const char *name, const crease_mesh *mesh);
 /** Adds curves, such as creases, as one layer. */
 CREASE_API crease_status crease_scene_add_curves(crease_context *context, crease_scene *scene,
     const char *name, const crease_curve *const *curves, size_t count);

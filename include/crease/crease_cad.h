@@ -59,6 +59,28 @@ CREASE_API crease_status crease_cad_curves_write(
 CREASE_API crease_status crease_cad_info_read(
     crease_context *context, const char *path, crease_cad_info *out);
 
+/** A CAD file as triangles: what it takes to compare it with a cloud, or to show it. */
+typedef struct crease_cad_model crease_cad_model;
+
+/** A face of a CAD file. */
+typedef struct crease_cad_face {
+    crease_region_type type; /**< extrusions, revolutions and splines are free forms */
+    double area;             /**< in the squared unit of the file */
+} crease_cad_face;
+
+/** Reads a CAD file, in the unit of the file, and triangulates its faces so that the triangles stay
+ * within the tolerance (a length) of them. tolerance 0: 1/100000 of the diagonal. Reads in a
+ * process of its own, as crease_cad_info_read() does. Errors: as there, and NUMERIC (a face that
+ * cannot be triangulated). */
+CREASE_API crease_status crease_cad_model_read(
+    crease_context *context, const char *path, double tolerance, crease_cad_model **out);
+CREASE_API void crease_cad_model_free(crease_cad_model *model);
+/** The triangles; their owners are the numbers of the faces. */
+CREASE_API const crease_mesh *crease_cad_model_mesh(const crease_cad_model *model);
+CREASE_API size_t crease_cad_model_face_count(const crease_cad_model *model);
+/** Face number index, below the count, in the order of the file. */
+CREASE_API crease_cad_face crease_cad_model_face(const crease_cad_model *model, size_t index);
+
 #ifdef __cplusplus
 }
 #endif

@@ -22,6 +22,7 @@ static constexpr rlim_t MOST_SECONDS = 600; /* of the processor, for one file */
 struct Verdict {
     crease_status status;
     char sentence[400];
+    size_t size; /* of the result */
 };
 
 static bool send_all(int pipe, const void *bytes, size_t size)
@@ -61,16 +62,27 @@ static void settle()
         std::signal(number, SIG_DFL);
 }
 
-static void work_here(int pipe, const void *result, size_t size, const std::function<void()> &work)
+static void work_here(int pipe, const std::function<std::vector<char>()> &work)
 {
     settle();
+    std::vector<char> result;
     Verdict verdict = {};
-    if (const std::optional<Failure> failure = failure_of(work)) {
+    if (const std::optional<Failure> failure = failure_of([&] { result = work(); })) {
         verdict.status = failure->status;
         std::snprintf(verdict.sentence, sizeof verdict.sentence, "%s", failure->sentence.c_str());
     }
+    verdict.size = result.size();
     if (send_all(pipe, &verdict, sizeof verdict))
-        send_all(pipe, result, size);
+        send_all(pipe, result.data(), result.size());
+}
+
+/* False when the other process ended before it had sent everything. */
+static bool receive(int pipe, Verdict &verdict, std::vector<char> &result)
+{
+    if (!receive_all(pipe, &verdict, sizeof verdict))
+        return false;
+    result.resize(verdict.size);
+    return receive_all(pipe, result.data(), result.size());
 }
 
 static Failure end_of(int status)
@@ -85,7 +97,7 @@ static Failure end_of(int status)
         "the file anew"};
 }
 
-void run_apart(void *result, size_t size, const std::function<void()> &work)
+std::vector<char> run_apart(const std::function<std::vector<char>()> &work)
 {
     int ends[2];
     if (pipe(ends) != 0)
@@ -94,13 +106,13 @@ void run_apart(void *result, size_t size, const std::function<void()> &work)
         fcntl(end, F_SETFD, FD_CLOEXEC);
     const pid_t child = fork();
     if (child == 0) {
-        work_here(ends[1], result, size, work);
+        work_here(ends[1], work);
         _exit(0);
     }
     close(ends[1]);
     Verdict verdict = {};
-    const bool whole = child > 0 && receive_all(ends[0], &verdict, sizeof verdict) &&
-        receive_all(ends[0], result, size);
+    std::vector<char> result;
+    const bool whole = child > 0 && receive(ends[0], verdict, result);
     close(ends[0]);
     if (child < 0)
         throw Failure{CREASE_ERROR_NO_MEMORY, "no process is to be had; end some others"};
@@ -111,6 +123,7 @@ void run_apart(void *result, size_t size, const std::function<void()> &work)
         throw end_of(status);
     if (verdict.status != CREASE_OK)
         throw Failure{verdict.status, verdict.sentence};
+    return result;
 }
 
 } // namespace crease_cad

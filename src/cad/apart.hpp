@@ -6,22 +6,36 @@
 #ifndef CREASE_CAD_APART_HPP
 #define CREASE_CAD_APART_HPP
 
-#include <cstddef>
+#include <cstring>
 #include <functional>
 #include <type_traits>
+#include <vector>
 
 namespace crease_cad
 {
 
-/* Runs the work, which fills the result, apart. Throws what it throws, as Failure. */
-void run_apart(void *result, size_t size, const std::function<void()> &work);
+/* Runs the work apart and returns the bytes that it returns. Throws what it throws, as Failure. */
+std::vector<char> run_apart(const std::function<std::vector<char>()> &work);
 
-/* The same for work that returns a plain structure. */
-template <typename Result> Result run_apart(const std::function<Result()> &work)
+/* The bytes of plain numbers or structures, one after the other. */
+template <typename Item> void append(std::vector<char> &bytes, const Item *items, size_t count)
 {
-    static_assert(std::is_trivially_copyable_v<Result>);
+    static_assert(std::is_trivially_copyable_v<Item>);
+    const char *const begin = (const char *)items;
+    bytes.insert(bytes.end(), begin, begin + count * sizeof *items);
+}
+
+/* Work that returns a plain structure. */
+template <typename Result> Result run_apart_for(const std::function<Result()> &work)
+{
     Result result = {};
-    run_apart(&result, sizeof result, [&] { result = work(); });
+    const std::vector<char> bytes = run_apart([&] {
+        std::vector<char> out;
+        const Result made = work();
+        append(out, &made, 1);
+        return out;
+    });
+    std::memcpy(&result, bytes.data(), sizeof result);
     return result;
 }
 

@@ -176,6 +176,6 @@ crease_status crease_cad_info_read(crease_context *context, const char *path, cr
     *out = {};
     return crease_cad::guard(context, path, [&] {
         const auto work = [&] { return crease_cad::info_of(crease_cad::read_model(path)); };
-        *out = crease_cad::run_apart<crease_cad_info>(work);
+        *out = crease_cad::run_apart_for<crease_cad_info>(work);
     });
 }

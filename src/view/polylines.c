@@ -148,3 +148,45 @@ crease_status crease_polylines_add_net(
     }
     return CREASE_OK;
 }
+
+static int by_value(const void *a, const void *b)
+{
+    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* The sides of all triangles, each as its lower and higher vertex in one number, sorted. */
+static uint64_t *sides_of(crease_context *context, const crease_mesh *mesh, size_t count)
+{
+    const uint32_t *const corners = crease_mesh_triangles(mesh);
+    uint64_t *const sides = crease_allocate(context, count, sizeof *sides);
+    if (!sides)
+        return NULL;
+    for (size_t i = 0; i < count; i++) {
+        const uint64_t a = corners[i], b = corners[i % 3 == 2 ? i - 2 : i + 1];
+        sides[i] = a < b ? a << 32 | b : b << 32 | a;
+    }
+    qsort(sides, count, sizeof *sides, by_value);
+    return sides;
+}
+
+crease_status crease_polylines_add_borders(
+    crease_context *context, crease_polylines *lines, const crease_mesh *mesh)
+{
+    const double *const vertices = crease_mesh_vertices(mesh);
+    const size_t count = 3 * crease_mesh_triangle_count(mesh);
+    uint64_t *const sides = sides_of(context, mesh, count);
+    crease_status status = sides ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+    for (size_t i = 0; i < count && status == CREASE_OK; i++) {
+        if ((i > 0 && sides[i] == sides[i - 1]) || (i + 1 < count && sides[i] == sides[i + 1]))
+            continue;
+        status = reserve(context, lines, 2, 1);
+        if (status != CREASE_OK)
+            break;
+        memcpy(next_node(lines), vertices + 3 * (sides[i] >> 32), 3 * sizeof *vertices);
+        memcpy(next_node(lines), vertices + 3 * (sides[i] & UINT32_MAX), 3 * sizeof *vertices);
+        chain(lines, 2);
+    }
+    free(sides);
+    return status;
+}

@@ -22,6 +22,9 @@ crease_status crease_polylines_add_curve(
  * its borders included. */
 crease_status crease_polylines_add_surface(
     crease_context *context, crease_polylines *lines, const crease_surface *surface, int cells);
+/* Appends the borders of a mesh: the sides of its triangles that no other triangle shares. */
+crease_status crease_polylines_add_borders(
+    crease_context *context, crease_polylines *lines, const crease_mesh *mesh);
 /* Appends the control net of a surface. */
 crease_status crease_polylines_add_net(
     crease_context *context, crease_polylines *lines, const crease_surface *surface);

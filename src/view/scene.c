@@ -130,6 +130,37 @@ crease_status crease_scene_add_surfaces(crease_context *context, crease_scene *s
     return status == CREASE_OK ? status : finish_layer(scene, status);
 }
 
+static size_t owner_count(const crease_mesh *mesh)
+{
+    const size_t triangles = crease_mesh_triangle_count(mesh);
+    const uint32_t *const owners = crease_mesh_owners(mesh);
+    size_t count = 0;
+    for (size_t i = 0; i < triangles; i++)
+        count = owners[i] >= count ? (size_t)owners[i] + 1 : count;
+    return count;
+}
+
+crease_status crease_scene_add_mesh(
+    crease_context *context, crease_scene *scene, const char *name, const crease_mesh *mesh)
+{
+    const crease_mesh_parts parts = {.vertex_count = crease_mesh_vertex_count(mesh),
+        .triangle_count = crease_mesh_triangle_count(mesh),
+        .vertices = crease_mesh_vertices(mesh),
+        .triangles = crease_mesh_triangles(mesh),
+        .owners = crease_mesh_owners(mesh)};
+    crease_status status = check_count(context, "triangles", parts.triangle_count);
+    if (status != CREASE_OK)
+        return status;
+    crease_layer *layer =
+        begin_layer(context, scene, CREASE_LAYER_SURFACE, name, owner_count(mesh));
+    if (!layer)
+        return CREASE_ERROR_NO_MEMORY;
+    status = crease_mesh_from_parts(context, &parts, &layer->mesh);
+    if (status == CREASE_OK)
+        status = crease_polylines_add_borders(context, &layer->lines, layer->mesh);
+    return finish_layer(scene, status);
+}
+
 crease_status crease_scene_add_curves(crease_context *context, crease_scene *scene,
     const char *name, const crease_curve *const *curves, size_t count)
 {

@@ -6,6 +6,7 @@
 golden overview.txt --help
 golden detect_help.txt detect --help
 golden fit_help.txt fit --help
+golden compare_help.txt compare --help
 golden info_help.txt info -h
 golden example_help.txt example --help
 golden reproduce_help.txt reproduce --help

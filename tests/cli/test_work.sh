@@ -58,6 +58,25 @@ check "a file without creases is not written" test ! -e none.step
 expect 0 "wrote l.step" fit panel.ply --creases l.step
 expect 0 "1 edges, 2 vertices" info l.step
 
+# --- a cloud beside a model
+expect 0 "2 faces" fit sample.ply -o roof.step --points roof.csv
+expect 0 "2 faces, 0 of them without a point" compare roof.step roof.csv -o dev.ply -o dev.png -o dev.html \
+    --report dev.json
+check "points on the model have no deviation, and every face has its own" python3 -c '
+import json
+r = json.load(open("dev.json"))
+assert r["deviation"]["max"] < 1e-6, r["deviation"]
+assert len(r["faces"]) == 2 and sum(f["points"] for f in r["faces"]) == 51
+assert all(f["points"] > 15 and f["area"] > 0 for f in r["faces"])'
+expect 0 "field deviation" info dev.ply
+expect 0 "field face: 0 to 1" info dev.ply
+for file in dev.png dev.html; do check "$file is there" test -s $file; done
+expect 2 "the CAD model, then the cloud" compare roof.step
+expect 3 "no such file" compare none.step roof.csv
+expect 3 "this is no CAD file" compare roof.csv roof.csv
+expect 2 "one argument too many" compare roof.step roof.csv roof.csv
+expect 2 "one argument too many" info roof.step roof.csv
+
 # --- a known noise is taken as it is: with a large one the panel's edge drowns
 expect 0 "noise 0.001" detect panel.ply --sigma 0.001 -o known.ply
 expect 0 "creases: 1" detect panel.ply --sigma 0.001 -o known.ply
