@@ -175,7 +175,7 @@ static crease_status write_seen(
     crease_status status = crease_scene_create(context, target_name(s->inputs[0]), &scene);
     if (status == CREASE_OK)
         status = crease_scene_add_cloud(context, scene, "points", all->cloud);
-    if (status == CREASE_OK)
+    if (status == CREASE_OK && crease_network_count(all->network) > 0)
         status = crease_scene_add_curves(context, scene, "creases",
             crease_network_curves(all->network), crease_network_count(all->network));
     if (status == CREASE_OK)

@@ -81,6 +81,7 @@ expect 2 "one argument too many" info roof.step roof.csv
 expect 0 "noise 0.001" detect panel.ply --sigma 0.001 -o known.ply
 expect 0 "creases: 1" detect panel.ply --sigma 0.001 -o known.ply
 expect 0 "creases: none" detect panel.ply --sigma 0.2 -o known.ply
+expect 0 "creases: none" detect panel.ply --sigma 0.2 -o none.png -o none.html
 expect 2 "number from 0" detect panel.ply --sigma -1 -o known.ply
 
 # --- fit, sheet
