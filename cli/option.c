@@ -32,8 +32,9 @@ const option option_table[] = {
         "Algorithm 1",
         NULL},
     {"sigma", 0, OPTION_REAL, "S", FOR_DETECT, AT(regions.sigma), 0, 1e150, NULL,
-        "noise of the points along the normal, when it is known: a length. Scanners whose noise is "
-        "correlated along their lines need it",
+        "noise of the points along the normal, when it is known: a length; each point is then "
+        "taken "
+        "to err by itself",
         "0: estimated"},
     {"neighbours", 'K', OPTION_INTEGER, "K", FOR_DETECT | FOR_FIT, AT(detect.neighbours), 4, 256,
         NULL, "neighbours of a point in the bootstrap, itself included", NULL},

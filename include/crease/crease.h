@@ -269,7 +269,8 @@ CREASE_API crease_status crease_tree_within(const crease_tree *tree, const doubl
 typedef struct crease_noise crease_noise;
 
 /** Estimates them from quadrics fitted to the 24 nearest neighbours of every point (10 and 8 where
- * walls are thin). Deterministic; O(n log n). Errors: TOO_FEW_POINTS (below 4), DEGENERATE (all
+ * walls are thin), and from wider windows, up to 192 neighbours, where these show errors that
+ * neighbours share. Deterministic; O(n log n). Errors: TOO_FEW_POINTS (below 4), DEGENERATE (all
  * points equal or on one line), NO_MEMORY, CANCELLED. */
 CREASE_API crease_status crease_noise_estimate(
     crease_context *context, const crease_cloud *cloud, crease_noise **out);
@@ -277,8 +278,8 @@ CREASE_API void crease_noise_free(crease_noise *noise);
 CREASE_API size_t crease_noise_count(const crease_noise *noise);
 /** Mean spacing sqrt(area / points), in the unit of the cloud. */
 CREASE_API double crease_noise_spacing(const crease_noise *noise);
-/** Standard deviation of the points along the surface's normal. Never below 0.03 spacings, so that
- * results for exact data do not hang on rounding. */
+/** Standard deviation of the points along the surface's normal, errors that neighbours share
+ * included. Never below 0.03 spacings, so that results for exact data do not hang on rounding. */
 CREASE_API double crease_noise_sigma(const crease_noise *noise);
 /** Unit normals, count x 3, sign arbitrary. Beside a sharp edge the normal is that of the side the
  * point lies on, not a mean of both. */

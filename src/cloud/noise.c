@@ -3,6 +3,7 @@
 
 /* Spacing, noise and normals of a cloud, from height fields fitted to small windows: to a point and
  * its 24 nearest neighbours (wide) and to its 10 nearest (narrow, for thin walls and small faces).
+ * Errors that neighbours share are found in larger windows: see correlation.h.
  *
  * Noise. On smooth ground the residual variance of a window is sigma^2 times chi-square over its
  * degrees of freedom; edges only raise it. A low quantile, divided by that quantile of chi-square,
@@ -16,19 +17,33 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/select.h"
-#include "base/symmetric.h"
 #include "base/vector.h"
+#include "cloud/correlation.h"
+#include "cloud/quadric.h"
 #include "space/neighbours.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDE = CREASE_NOISE_NEIGHBOURS - 1, NARROW = 10, TIGHT = 8, TERMS = 6, GRAIN = 1024 };
+enum {
+    WIDE = CREASE_NOISE_NEIGHBOURS - 1,
+    NARROW = 10,
+    TIGHT = 8,
+    TERMS = CREASE_QUADRIC_TERMS,
+    GRAIN = 1024
+};
 
-static const double quantile = 0.3;     /* of the residual variances */
-static const double wide_share = 0.80;  /* that quantile of chi-square / dof, about 18 dof */
-static const double tight_share = 0.64; /* the same for 6 dof */
+static const double quantile = 0.3;      /* of the residual variances */
+static const double wide_share = 0.80;   /* that quantile of chi-square / dof, about 18 dof */
+static const double tight_share = 0.64;  /* the same for 6 dof */
+static const double tight_median = 0.89; /* the median of chi-square / dof for 6 dof */
+static const double thin_residual = 0.4; /* of wide windows across a thin wall, in spacings */
+static const double flat_share = 0.1;    /* of the tight windows, and a residual variance, over the
+                                            noise's, that independent noise leaves in one of 300 */
+static const double flat_variance = 0.05;
+static const double terrace_points = 3.0; /* that err alike on a terrace, at least */
+static const double roughest = 0.7;  /* in spacings: greater residuals are not of noise alone */
 static const double trimmed = 0.985; /* share of the K-th neighbours' distances averaged: the rest
                                         belongs to outliers and to the rims of holes */
 static const double least_sigma = 0.03; /* in spacings */
@@ -52,6 +67,8 @@ typedef struct estimate {
     int wide, narrow, tight; /* neighbours in use, without the point itself */
     double unit;
     double sigma2; /* in square units */
+    bool thin;     /* walls are so thin that wide windows see both sides */
+    bool terraced; /* points beside each other have been rounded alike */
     window *wides, *narrows;
     double *values; /* one number for each point, for quantiles */
     crease_noise *noise;
@@ -68,63 +85,14 @@ static int gather(const estimate *run, size_t point, int neighbours, double (*ou
     return neighbours + 1;
 }
 
-/* Centres the points, and gives the main axes of what is left, ascending; returns the sum of the
- * squared distances from the plane of best fit. */
-static double fit_plane(
-    double (*points)[3], int count, double centre[3], double values[3], double axes[9])
-{
-    double covariance[6] = {0};
-    for (int c = 0; c < 3; c++) {
-        centre[c] = 0.0;
-        for (int j = 0; j < count; j++)
-            centre[c] += points[j][c];
-        centre[c] /= count;
-        for (int j = 0; j < count; j++)
-            points[j][c] -= centre[c];
-    }
-    for (int j = 0; j < count; j++)
-        crease_symmetric_add(covariance, 1.0, points[j]);
-    crease_symmetric_axes(covariance, values, axes);
-    return fmax(values[0], 0.0);
-}
-
-/* Least squares of the quadric over the frame of the plane, abscissae scaled by `scale`. Returns
- * the sum of squared residuals, or a negative number when the points do not determine it. */
-static double fit_quadric(
-    double (*points)[3], int count, const double axes[9], double scale, double height[TERMS])
-{
-    double matrix[TERMS * TERMS] = {0}, right[TERMS] = {0}, squares = 0.0;
-    for (int j = 0; j < count; j++) {
-        const double x = crease_vector_dot(points[j], axes + 6) / scale;
-        const double y = crease_vector_dot(points[j], axes + 3) / scale;
-        const double z = crease_vector_dot(points[j], axes);
-        const double terms[TERMS] = {1, x, y, x * x, x * y, y * y};
-        squares += z * z;
-        for (int r = 0; r < TERMS; r++) {
-            right[r] += terms[r] * z;
-            for (int c = 0; c <= r; c++)
-                matrix[TERMS * r + c] += terms[r] * terms[c];
-        }
-    }
-    for (int r = 0; r < TERMS; r++)
-        matrix[(TERMS + 1) * r] += 1e-9 * count;
-    memcpy(height, right, sizeof right);
-    if (!crease_symmetric_factor(matrix, TERMS, TERMS, TERMS))
-        return -1.0;
-    crease_symmetric_solve(matrix, TERMS, TERMS, TERMS, height);
-    for (int r = 0; r < TERMS; r++)
-        squares -= height[r] * right[r];
-    return fmax(squares, 0.0);
-}
-
 static void fit_window(const estimate *run, size_t point, int neighbours, window *out)
 {
     double points[WIDE + 1][3], centre[3], values[3], axes[9], height[TERMS];
     const int count = gather(run, point, neighbours, points);
-    const double flat = fit_plane(points, count, centre, values, axes);
+    const double flat = crease_quadric_plane(points, count, centre, values, axes);
     double bent = -1.0, scale = sqrt(values[2] / count);
     if (count > NARROW && scale > 0.0)
-        bent = fit_quadric(points, count, axes, scale, height);
+        bent = crease_quadric_fit(points, count, axes, scale, height);
     *out = (window){.flat = (float)flat, .bent = (float)(bent < 0.0 ? flat : bent)};
     for (int c = 0; c < 3; c++) {
         out->centre[c] = (float)centre[c];
@@ -166,7 +134,7 @@ static void tight_variances(void *user, size_t begin, size_t end, int worker)
     double points[TIGHT + 1][3], centre[3], values[3], axes[9];
     for (size_t i = begin; i < end; i++) {
         const int count = gather(run, i, run->tight, points);
-        run->values[i] = fit_plane(points, count, centre, values, axes) / (count - 3);
+        run->values[i] = crease_quadric_plane(points, count, centre, values, axes) / (count - 3);
     }
 }
 
@@ -198,8 +166,26 @@ static double low_quantile(const estimate *run)
     return crease_select(run->values, run->count, (size_t)(quantile * (double)run->count));
 }
 
-/* Sigma and spacing by the wide windows; where most of these see both sides of a thin wall, planes
- * through 8 neighbours have a far smaller residual and are believed instead. */
+/* Whether most wide windows see both sides of a thin wall: they leave a good part of the spacing,
+ * and nearly all planes through 8 neighbours far less. Where only some do, the points lie on
+ * terraces or rows. *tight: variance of the noise by these planes. */
+static bool is_thin(const estimate *run, double spacing2, double *tight)
+{
+    const double most = crease_select(run->values, run->count, run->count / 2) / tight_median;
+    *tight = low_quantile(run) / tight_share;
+    return most < 0.25 * run->sigma2 && run->sigma2 > thin_residual * thin_residual * spacing2;
+}
+
+/* Whether the points lie on terraces or rows, as rounded depths make them: many tight windows are
+ * flat where wide ones are rough. */
+static bool is_terraced(const estimate *run, double spacing2)
+{
+    const size_t rank = (size_t)(flat_share * (double)run->count);
+    return crease_select(run->values, run->count, rank) < flat_variance * run->sigma2 &&
+        run->sigma2 > 4.0 * least_sigma * least_sigma * spacing2;
+}
+
+/* Sigma and spacing by the wide windows, or by the tight ones where walls are thin. */
 static crease_status find_scale(crease_context *context, estimate *run, double *spacing2)
 {
     for (size_t i = 0; i < run->count; i++)
@@ -210,9 +196,10 @@ static crease_status find_scale(crease_context *context, estimate *run, double *
         crease_parallel_for(context, run->count, GRAIN, tight_variances, run);
     if (status != CREASE_OK)
         return status;
-    const double tight = low_quantile(run) / tight_share;
-    const bool thin = tight < 0.25 * run->sigma2 && run->sigma2 > 0.01 * *spacing2;
-    if (thin) {
+    double tight;
+    run->thin = is_thin(run, *spacing2, &tight);
+    run->terraced = !run->thin && is_terraced(run, *spacing2);
+    if (run->thin) {
         run->sigma2 = tight;
         *spacing2 = squared_spacing(run, run->tight, run->tight + 0.3, tight);
     }
@@ -220,7 +207,7 @@ static crease_status find_scale(crease_context *context, estimate *run, double *
         const double reach2 = squared_reach(run, i, run->wide);
         const double local = acos(-1.0) * (reach2 - 2.0 * run->sigma2) / run->wide;
         run->noise->local_spacing[i] =
-            (float)(run->unit * sqrt(thin ? *spacing2 : fmax(local, 0.1 * *spacing2)));
+            (float)(run->unit * sqrt(run->thin ? *spacing2 : fmax(local, 0.1 * *spacing2)));
     }
     return CREASE_OK;
 }
@@ -329,6 +316,22 @@ static crease_status check_extent(crease_context *context, estimate *run)
         run->unit > 0.0 ? "on one line" : "in one place");
 }
 
+/* The noise with the errors that neighbours share. Normals come from small windows, which do not
+ * see these, and keep the variance of small windows. */
+static crease_status find_sigma(crease_context *context, estimate *run)
+{
+    crease_noise *const noise = run->noise;
+    crease_correlation shared = {.points = 1.0};
+    noise->sigma = run->unit * sqrt(run->sigma2);
+    const crease_status status = run->thin || noise->sigma > roughest * noise->spacing
+        ? CREASE_OK
+        : crease_correlation_estimate(
+              context, run->points, run->count, noise->sigma * noise->sigma, &shared);
+    noise->sigma = fmax(noise->sigma, sqrt(shared.sigma2));
+    noise->alike = run->terraced ? fmax(shared.points, terrace_points) : shared.points;
+    return status;
+}
+
 static crease_status compute(crease_context *context, estimate *run)
 {
     double spacing2 = 0.0;
@@ -343,8 +346,10 @@ static crease_status compute(crease_context *context, estimate *run)
             run->wide);
     run->sigma2 = fmax(run->sigma2, least_sigma * least_sigma * spacing2);
     run->noise->spacing = run->unit * sqrt(spacing2);
-    run->noise->sigma = run->unit * sqrt(run->sigma2);
-    return crease_parallel_for(context, run->count, GRAIN, choose_normals, run);
+    status = find_sigma(context, run);
+    return status != CREASE_OK
+        ? status
+        : crease_parallel_for(context, run->count, GRAIN, choose_normals, run);
 }
 
 static int at_most(int neighbours, int wanted)

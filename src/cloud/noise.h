@@ -15,6 +15,7 @@ struct crease_noise {
     double spacing;  /* s = sqrt(area / count), away from thin places */
     double sigma;    /* standard deviation along the normal; at least 0.03 s, the flatness that any
                         comparison with the noise is allowed to ask for */
+    double alike;    /* how many neighbouring points err as if they were one, at least 1 */
     double *normals; /* count x 3: of the side of an edge that the point lies on; sign arbitrary */
     float *scores;   /* mean squared residual of the point's surroundings over sigma^2 */
     float *local_spacing; /* spacing around each point */

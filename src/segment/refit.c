@@ -16,6 +16,8 @@ enum { GRAIN = 4096, LEAST_MEMBERS = 6, LEAST_INTERIOR = 30, LARGE_FREEFORM = 20
 enum { DEEP_REGION = 60, LEAST_RESIDUALS = 200 };
 
 static const double least_sigma = 0.03; /* in spacings, as in cloud/noise.c */
+static const double least_share = 0.8;  /* of the first estimate: residuals that are smaller still
+                                           come of too many regions */
 
 typedef struct refitting {
     crease_segmentation *seg;
@@ -163,9 +165,9 @@ crease_status crease_measure_noise(crease_segmentation *seg)
         residuals[count++] =
             fabs(crease_model_distance(&seg->models[label], seg->points + 3 * i, gradient));
     }
+    const double least = fmax(least_sigma * seg->spacing, least_share * seg->noise->sigma);
     if (count > LEAST_RESIDUALS)
-        seg->sigma =
-            fmax(1.4826 * crease_select(residuals, count, count / 2), least_sigma * seg->spacing);
+        seg->sigma = fmax(1.4826 * crease_select(residuals, count, count / 2), least);
     free(residuals);
     return CREASE_OK;
 }

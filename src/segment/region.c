@@ -146,7 +146,8 @@ static void set_outliers_aside(
         scratch[m] =
             fabs(crease_model_distance(&seg->models[region], seg->points + 3 * point, gradient));
     }
-    const double scale = fmax(1.4826 * crease_select(scratch, size, size / 2), seg->sigma);
+    const double sigma = regions->noise_sigma;
+    const double scale = fmax(1.4826 * crease_select(scratch, size, size / 2), sigma);
     double squares = 0.0, cut = 0.0;
     size_t kept = 0;
     for (size_t m = 0; m < size; m++) {
@@ -158,7 +159,7 @@ static void set_outliers_aside(
             continue;
         }
         squares += d * d;
-        cut += fmin(d * d / (seg->sigma * seg->sigma), CREASE_COST_CUT);
+        cut += fmin(d * d / (sigma * sigma), CREASE_COST_CUT);
         kept++;
     }
     regions->sizes[region] = kept;
@@ -207,12 +208,13 @@ static crease_status take_models(
     regions->rms = crease_allocate(context, count, sizeof *regions->rms);
     double *const scratch = crease_allocate(context, regions->count, sizeof *scratch);
     const bool enough = regions->sizes && regions->rms && scratch;
+    regions->sigma = seg->sigma;
+    regions->noise_sigma = seg->sigma / sqrt(seg->alike);
     for (size_t r = 0; r < count && enough; r++)
         set_outliers_aside(regions, seg, r, scratch);
     free(scratch);
     if (!enough)
         return CREASE_ERROR_NO_MEMORY;
-    regions->sigma = seg->sigma;
     regions->models = seg->models;
     regions->region_count = count;
     seg->models = NULL;
@@ -246,6 +248,7 @@ static int links_of(int wanted, const crease_regions *regions)
 static crease_status segment(
     crease_context *context, crease_regions *regions, const crease_regions_options *options)
 {
+    const bool known = options->sigma > 0.0;
     crease_segmentation seg = {.context = context,
         .count = regions->count,
         .points = regions->points,
@@ -254,8 +257,9 @@ static crease_status segment(
         .links = links_of(CREASE_LINKS, regions),
         .border_links = links_of(CREASE_BORDER_LINKS, regions),
         .noise = regions->noise,
-        .sigma = options->sigma > 0.0 ? options->sigma : regions->noise->sigma,
-        .known_sigma = options->sigma > 0.0,
+        .sigma = known ? options->sigma : regions->noise->sigma * sqrt(regions->noise->alike),
+        .alike = known ? 1.0 : regions->noise->alike,
+        .known_sigma = known || regions->noise->alike > 1.0,
         .spacing = regions->noise->spacing,
         .least_points = options->least_points,
         .labels = regions->labels};
@@ -406,7 +410,7 @@ double crease_regions_spacing(const crease_regions *regions)
 
 double crease_regions_sigma(const crease_regions *regions)
 {
-    return regions->sigma;
+    return regions->noise_sigma;
 }
 
 static void add_numbers(crease_region *region, const double *numbers, size_t count)

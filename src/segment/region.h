@@ -22,7 +22,9 @@ struct crease_regions {
     crease_neighbours *neighbours; /* CREASE_NOISE_NEIGHBOURS of each point (fewer in tiny clouds),
                                       the point itself first; as positions */
     crease_noise *noise;           /* spacing, normals, scores; its sigma is the first estimate */
-    double sigma;                  /* noise by the residuals inside regions, at least 0.03 s */
+    double noise_sigma;            /* noise by the residuals inside regions, at least 0.03 s */
+    double sigma;                  /* what residuals are weighed by: more than the noise where
+                                      neighbouring points err alike */
     int32_t *labels;               /* number of the region, or CREASE_NO_REGION */
     size_t region_count;
     crease_model *models;     /* region_count */

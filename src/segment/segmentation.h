@@ -32,7 +32,10 @@ typedef struct crease_segmentation {
     size_t stride;
     int links, border_links; /* CREASE_LINKS and CREASE_BORDER_LINKS, or all there are */
     const crease_noise *noise;
-    double sigma, spacing;
+    double sigma; /* what a residual is weighed by: the noise, times the root of `alike` */
+    double alike; /* neighbouring points that err as if they were one: their squared residuals
+                     together say no more than one of them */
+    double spacing;
     double least_cosine; /* of the angle between a point's normal and its region's */
     size_t least_points; /* of a region */
     int32_t *labels;
@@ -41,7 +44,7 @@ typedef struct crease_segmentation {
     size_t *tried;     /* size of each region when other explanations were last sought in vain */
     uint32_t *members; /* all labelled points, region by region, ascending */
     size_t *first;     /* region_count + 1: where each region's members begin */
-    bool known_sigma;  /* given by the caller */
+    bool known_sigma;  /* not to be measured again */
     crease_fitter *fitters; /* one for each thread */
     atomic_bool no_memory;  /* an allocation failed inside a parallel loop */
 } crease_segmentation;

@@ -151,6 +151,30 @@ static inline void add_noise(struct faces *faces, double sigma)
         faces->points[i] += sigma * faces->spacing * crease_random_normal(7, 2, i);
 }
 
+/* A plate of spacing 1 in the plane z = slope y, scanned along lines of constant y: each error
+ * along z is shared by `alike` points of its line. */
+static inline struct faces given_scanned_plate(
+    size_t width, size_t height, double slope, double sigma, size_t alike)
+{
+    struct faces faces = given_faces(1);
+    for (size_t j = 0; j < height; j++)
+        for (size_t i = 0; i < width; i++) {
+            const uint64_t n = (uint64_t)faces.count;
+            const double x = (double)i + 0.4 * crease_random_uniform(9, 1, n);
+            const double y = (double)j + 0.4 * crease_random_uniform(9, 2, n);
+            const double error = crease_random_normal(9, 3, j * width + i / alike);
+            add_point(&faces, x, y, slope * y + sigma * error);
+        }
+    return faces;
+}
+
+/* Heights as a depth camera gives them: whole multiples of the step. */
+static inline void round_heights(struct faces *faces, double step)
+{
+    for (size_t i = 0; i < faces->count; i++)
+        faces->points[3 * i + 2] = step * round(faces->points[3 * i + 2] / step);
+}
+
 static inline crease_cloud *cloud_of(crease_context *context, const struct faces *faces)
 {
     const crease_cloud_parts parts = {.count = faces->count, .points = faces->points};

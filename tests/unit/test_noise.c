@@ -4,6 +4,7 @@
 #include "given_faces.h"
 
 #include "base/symmetric.h"
+#include "cloud/noise.h"
 
 static crease_noise *given_noise(crease_context *context, const struct faces *faces)
 {
@@ -116,6 +117,56 @@ static void both_sides_of_a_thin_wall_are_told_apart(void **state)
     crease_context_free(context);
 }
 
+static void independent_errors_are_not_taken_for_shared_ones(void **state)
+{
+    static struct faces (*const shapes[])(double) = {given_square, given_tube, given_cube};
+    crease_context *context = given_context();
+    for (size_t shape = 0; shape < 3; shape++)
+        for (int i = 0; i < 4; i++) {
+            struct faces faces = shapes[shape](0.025);
+            add_noise(&faces, 0.16 * i);
+            crease_noise *noise = given_noise(context, &faces);
+            assert_true(noise->alike == 1.0);
+            crease_noise_free(noise);
+            free_faces(&faces);
+        }
+    crease_context_free(context);
+}
+
+/* Small windows follow errors that ten points of a scan line share, and leave half of the noise. */
+static void errors_along_scan_lines_are_found(void **state)
+{
+    static const double sigmas[] = {0.1, 0.2, 0.3};
+    crease_context *context = given_context();
+    for (size_t i = 0; i < 3; i++) {
+        struct faces faces = given_scanned_plate(120, 120, 0.2, sigmas[i], 10);
+        crease_noise *noise = given_noise(context, &faces);
+        const double sigma = sigmas[i] * cos(atan(0.2));
+        assert_near(crease_noise_sigma(noise), sigma, 0.2 * sigma);
+        assert_true(noise->alike > 3 && noise->alike < 20);
+        crease_noise_free(noise);
+        free_faces(&faces);
+    }
+    crease_context_free(context);
+}
+
+static void terraces_of_rounded_depths_are_no_thin_walls(void **state)
+{
+    static const double slopes[] = {0.08, 0.15, 0.15}, sigmas[] = {0.2, 0.2, 0};
+    crease_context *context = given_context();
+    for (size_t i = 0; i < 3; i++) {
+        struct faces faces = given_scanned_plate(90, 90, slopes[i], sigmas[i], 1);
+        round_heights(&faces, 1);
+        crease_noise *noise = given_noise(context, &faces);
+        const double sigma = sqrt(1.0 / 12 + sigmas[i] * sigmas[i]) * cos(atan(slopes[i]));
+        assert_near(crease_noise_sigma(noise), sigma, 0.2 * sigma);
+        assert_true(noise->alike >= 3);
+        crease_noise_free(noise);
+        free_faces(&faces);
+    }
+    crease_context_free(context);
+}
+
 static void threads_do_not_change_a_bit(void **state)
 {
     struct faces faces = given_cube(0.04);
@@ -198,7 +249,7 @@ static void points_without_a_surface_are_refused(void **state)
 static void every_failed_allocation_is_reported(void **state)
 {
     crease_context *context = given_context();
-    struct faces faces = given_cube(0.2);
+    struct faces faces = given_cube(0.08);
     crease_cloud *cloud = cloud_of(context, &faces);
     crease_status status = CREASE_ERROR_NO_MEMORY;
     for (long n = 0; status != CREASE_OK; n++) {
@@ -262,6 +313,9 @@ int main(void)
         cmocka_unit_test(spacing_is_the_root_of_the_area_of_a_point),
         cmocka_unit_test(normals_beside_edges_are_those_of_the_own_side),
         cmocka_unit_test(both_sides_of_a_thin_wall_are_told_apart),
+        cmocka_unit_test(independent_errors_are_not_taken_for_shared_ones),
+        cmocka_unit_test(errors_along_scan_lines_are_found),
+        cmocka_unit_test(terraces_of_rounded_depths_are_no_thin_walls),
         cmocka_unit_test(threads_do_not_change_a_bit),
         cmocka_unit_test(size_and_place_do_not_matter),
         cmocka_unit_test(points_without_a_surface_are_refused),

@@ -216,6 +216,28 @@ static void the_description_of_a_region_is_its_surface(void **state)
     crease_context_free(context);
 }
 
+/* Waves of errors that neighbours share are not split into regions of their own. */
+static void noise_that_neighbours_share_is_no_shape(void **state)
+{
+    static const double slopes[] = {0.2, 0.15}, sigmas[] = {0.3, 0.2};
+    crease_context *context = given_context();
+    for (int rounded = 0; rounded < 2; rounded++) {
+        struct faces faces =
+            given_scanned_plate(90, 90, slopes[rounded], sigmas[rounded], rounded ? 1 : 10);
+        if (rounded)
+            round_heights(&faces, 1);
+        crease_regions *regions = given_regions(context, &faces);
+        assert_int_equal(crease_regions_count(regions), 1);
+        const crease_region plate = crease_regions_at(regions, 0);
+        assert_int_equal(plate.type, CREASE_REGION_PLANE);
+        assert_near(plate.rms, crease_regions_sigma(regions), 0.2 * plate.rms);
+        assert_near(plate.chi, 1, 0.4);
+        crease_regions_free(regions);
+        free_faces(&faces);
+    }
+    crease_context_free(context);
+}
+
 static void outliers_belong_to_no_region(void **state)
 {
     crease_context *context = given_context();
@@ -468,6 +490,7 @@ int main(void)
         cmocka_unit_test(the_faces_of_solids_are_the_regions),
         cmocka_unit_test(a_free_form_is_explained_by_few_regions),
         cmocka_unit_test(the_description_of_a_region_is_its_surface),
+        cmocka_unit_test(noise_that_neighbours_share_is_no_shape),
         cmocka_unit_test(outliers_belong_to_no_region),
         cmocka_unit_test(size_turn_and_place_change_no_label),
         cmocka_unit_test(the_order_of_the_points_changes_no_label),
