@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* usage: bench-neighbours [MOST_POINTS]
+/* usage: bench-neighbours [MOST_POINTS [LEAST_POINTS]]
  * The K nearest neighbours of all points, sorting and making the tree included, beside nanoflann.
  */
 #include "bench.h"
@@ -65,7 +65,8 @@ static void measure_all(size_t count, bool sorted)
 int main(int count, char **arguments)
 {
     const size_t most = count > 1 ? strtoul(arguments[1], NULL, 10) : 1000000;
-    for (size_t points = 100000; points <= most; points *= 10) {
+    const size_t least = count > 2 ? strtoul(arguments[2], NULL, 10) : 100000;
+    for (size_t points = least; points <= most; points *= 10) {
         measure_all(points, true);
         measure_all(points, false);
     }

@@ -51,9 +51,10 @@ static void score_leaves(void *user, size_t begin, size_t end, int worker)
     const scoring *run = user;
     uint32_t positions[CREASE_LEAF_POINTS * CREASE_MOST_NEIGHBOURS];
     double distances[CREASE_LEAF_POINTS * CREASE_MOST_NEIGHBOURS];
+    double reach = 0;
     for (size_t leaf = begin; leaf < end; leaf++) {
         const crease_node *const node = run->tree->nodes + run->tree->leaves[leaf];
-        crease_tree_leaf_nearest(run->tree, leaf, run->k, positions, distances);
+        crease_tree_leaf_nearest(run->tree, leaf, run->k, &reach, positions, distances);
         for (uint32_t i = 0; i < node->end - node->begin; i++)
             score_point(run, positions + i * (uint32_t)run->k, worker);
     }

@@ -12,25 +12,33 @@
 
 typedef struct selection {
     size_t count;
-    double distance[CREASE_MOST_SELECTED], index[CREASE_MOST_SELECTED];
-    double rank[CREASE_MOST_SELECTED];
+    double distance[CREASE_MOST_SELECTED], rank[CREASE_MOST_SELECTED];
     uint32_t number[CREASE_MOST_SELECTED]; /* of the candidate */
 } selection;
 
-bool crease_candidates_add(crease_candidates *candidates, const crease_tree *tree, uint32_t begin,
-    uint32_t end, const double place[3], double limit)
+CREASE_INLINE double outside(double low, double high, double value)
 {
+    const double below = low - value, above = value - high;
+    const double away = below > above ? below : above;
+    return away > 0 ? away : 0;
+}
+
+bool crease_candidates_add(crease_candidates *candidates, uint32_t begin, uint32_t end)
+{
+    const crease_tree *const tree = candidates->tree;
+    const double *const low = candidates->low, *const high = candidates->high;
+    const double limit = candidates->limit;
     size_t count = candidates->count;
     if (count + (end - begin) > CREASE_MOST_CANDIDATES)
         return false;
     for (uint32_t i = begin; i < end; i++) {
-        const double dx = tree->x[i] - place[0];
-        const double dy = tree->y[i] - place[1];
-        const double dz = tree->z[i] - place[2];
-        candidates->x[count] = tree->x[i];
-        candidates->y[count] = tree->y[i];
-        candidates->z[count] = tree->z[i];
-        candidates->index[count] = tree->index[i];
+        const double x = tree->x[i], y = tree->y[i], z = tree->z[i];
+        const double dx = outside(low[0], high[0], x);
+        const double dy = outside(low[1], high[1], y);
+        const double dz = outside(low[2], high[2], z);
+        candidates->x[count] = x;
+        candidates->y[count] = y;
+        candidates->z[count] = z;
         candidates->position[count] = i;
         count += dx * dx + dy * dy + dz * dz <= limit;
     }
@@ -38,10 +46,9 @@ bool crease_candidates_add(crease_candidates *candidates, const crease_tree *tre
     return true;
 }
 
-CREASE_INLINE void measure(
-    crease_candidates *restrict candidates, const double *restrict place, size_t self)
+CREASE_INLINE void measure(crease_candidates *candidates, size_t self)
 {
-    const double x = place[0], y = place[1], z = place[2];
+    const double x = candidates->x[self], y = candidates->y[self], z = candidates->z[self];
     for (size_t i = 0; i < candidates->count; i++) {
         const double dx = candidates->x[i] - x;
         const double dy = candidates->y[i] - y;
@@ -74,14 +81,14 @@ CREASE_INLINE double find_limit(
 {
     const double k = request->k, most = 1.5 * k + 4, aim = 1.2 * k + 2;
     double limit = request->guess;
-    for (int attempt = 0; attempt < 4 && limit < request->bound; attempt++) {
+    for (int attempt = 0; attempt < 4 && limit < candidates->limit; attempt++) {
         *count = count_within(candidates, limit);
         if (*count >= k && (*count <= most || attempt > 1))
             return limit;
         limit *= aim / *count;
     }
-    *count = count_within(candidates, request->bound);
-    return request->bound;
+    *count = count_within(candidates, candidates->limit);
+    return candidates->limit;
 }
 
 CREASE_INLINE void select_within(
@@ -92,24 +99,40 @@ CREASE_INLINE void select_within(
         chosen->number[count] = (uint32_t)i;
         count += candidates->distance[i] <= limit;
     }
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         chosen->distance[i] = candidates->distance[chosen->number[i]];
-        chosen->index[i] = candidates->index[chosen->number[i]];
-    }
     chosen->count = count;
 }
 
-CREASE_INLINE void find_ranks(selection *restrict chosen)
+/* The number of others that are nearer; true when all are different. */
+CREASE_INLINE bool rank_by_distance(selection *restrict chosen)
 {
     const size_t count = chosen->count;
     for (size_t i = 0; i < count; i++)
         chosen->rank[i] = 0;
     for (size_t j = 0; j < count; j++) {
-        const double distance = chosen->distance[j], index = chosen->index[j];
+        const double distance = chosen->distance[j];
+        for (size_t i = 0; i < count; i++)
+            chosen->rank[i] += distance < chosen->distance[i] ? 1 : 0;
+    }
+    double sum = 0;
+    for (size_t i = 0; i < count; i++)
+        sum += chosen->rank[i];
+    return sum == 0.5 * (double)count * ((double)count - 1);
+}
+
+/* Adds the number of others that are as near and have a lower index. */
+CREASE_INLINE void rank_ties(selection *restrict chosen, const crease_candidates *candidates)
+{
+    const size_t count = chosen->count;
+    double index[CREASE_MOST_SELECTED];
+    for (size_t i = 0; i < count; i++)
+        index[i] = candidates->tree->index[candidates->position[chosen->number[i]]];
+    for (size_t j = 0; j < count; j++) {
+        const double distance = chosen->distance[j], own = index[j];
         for (size_t i = 0; i < count; i++) {
-            const double tie = index < chosen->index[i] ? 1 : 0;
-            const double equal = distance == chosen->distance[i] ? tie : 0;
-            chosen->rank[i] += distance < chosen->distance[i] ? 1 : equal;
+            const double lower = own < index[i] ? 1 : 0;
+            chosen->rank[i] += distance == chosen->distance[i] ? lower : 0;
         }
     }
 }
@@ -119,13 +142,14 @@ CREASE_VECTORISED bool crease_candidates_nearest(crease_candidates *candidates,
 {
     const size_t k = (size_t)request->k;
     selection chosen;
-    measure(candidates, request->place, request->self);
+    measure(candidates, request->self);
     double count = 0;
     const double limit = find_limit(candidates, request, &count);
     if (count < (double)k || count >= CREASE_MOST_SELECTED)
         return false;
     select_within(candidates, limit, &chosen);
-    find_ranks(&chosen);
+    if (!rank_by_distance(&chosen))
+        rank_ties(&chosen, candidates);
     for (size_t i = 0; i < chosen.count; i++) {
         const size_t rank = (size_t)chosen.rank[i];
         if (rank < k) {

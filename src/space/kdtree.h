@@ -10,7 +10,7 @@
 
 #include "base/context.h"
 
-enum { CREASE_LEAF_POINTS = 16, CREASE_MOST_NEIGHBOURS = 256, CREASE_TREE_DEPTH = 128 };
+enum { CREASE_LEAF_POINTS = 32, CREASE_MOST_NEIGHBOURS = 256, CREASE_TREE_DEPTH = 128 };
 
 /* A run of positions and the smallest box around its points. The first child follows its parent. */
 typedef struct crease_node {
@@ -33,8 +33,10 @@ struct crease_tree {
  * tree's count. The leaf's points are positions nodes[leaves[leaf]].begin .. end - 1;
  * positions and squared_distances hold CREASE_LEAF_POINTS x k elements. Works without allocating,
  * so that a later stage can go through all points leaf by leaf and never store all neighbours:
- * let crease_parallel_for run over tree->leaf_count. */
-void crease_tree_leaf_nearest(
-    const crease_tree *tree, size_t leaf, int k, uint32_t *positions, double *squared_distances);
+ * let crease_parallel_for run over tree->leaf_count. *reach: 0 for the first leaf of a run of
+ * leaves; afterwards what the call for the leaf before left there. It serves speed alone: the
+ * result is the same for any number. */
+void crease_tree_leaf_nearest(const crease_tree *tree, size_t leaf, int k, double *reach,
+    uint32_t *positions, double *squared_distances);
 
 #endif

@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* The nearest points of all points of a leaf at once. One of them, in the middle, is looked up
- * from the root; by the triangle inequality its k-th distance bounds that of all others, and one
- * walk through the tree gathers the candidates for all of them. Where there are too many candidates
- * (heaps of equal points, jumps of density) each point is looked up on its own. */
+/* The nearest points of all points of a leaf at once. One walk through the tree gathers all points
+ * within some reach of the leaf's box. A point whose k-th nearest among them is not beyond that
+ * reach has found its nearest points: whatever is nearer to it is nearer to the box, too. The
+ * others are looked up from the root, each on its own. The reach is a little more than what the
+ * points of the leaf before needed, so that few have to be; for the first leaf, and where there are
+ * too many candidates (heaps of equal points, jumps of density), one point is looked up to get it.
+ */
 #include "space/candidates.h"
 #include "space/nearest.h"
 
@@ -12,52 +15,16 @@
 
 enum { LEAST_POINTS = 4 };
 
+static const double MARGIN = 1.3; /* reach of a leaf in mean k-th distances of the one before */
+static const double MORE = 1.2;   /* squared distances: a guess in those of the point before */
+
 typedef struct leaf_search {
     const crease_tree *tree;
     const crease_node *leaf;
     int k;
-    uint32_t middle;         /* position of the point that was looked up */
-    double centre[3];        /* its place */
-    double reach;            /* its k-th distance */
-    double box_limit, limit; /* squared: of candidates from the leaf's box and from the centre */
-    crease_candidates *candidates;
+    uint32_t *positions;
+    double *distances; /* squared */
 } leaf_search;
-
-static void place_of(const crease_tree *tree, uint32_t position, double place[3])
-{
-    place[0] = tree->x[position];
-    place[1] = tree->y[position];
-    place[2] = tree->z[position];
-}
-
-/* A length a little above, so that no rounding can make a bound too small. */
-static double above(double length)
-{
-    return length * (1 + 1e-9) + 1e-150;
-}
-
-static double squared_distance(const crease_tree *tree, uint32_t position, const double place[3])
-{
-    const double dx = tree->x[position] - place[0];
-    const double dy = tree->y[position] - place[1];
-    const double dz = tree->z[position] - place[2];
-    return dx * dx + dy * dy + dz * dz;
-}
-
-static uint32_t find_middle(const crease_tree *tree, const crease_node *leaf)
-{
-    double middle[3];
-    for (int axis = 0; axis < 3; axis++)
-        middle[axis] = 0.5 * leaf->low[axis] + 0.5 * leaf->high[axis];
-    uint32_t best = leaf->begin;
-    double least = INFINITY;
-    for (uint32_t i = leaf->begin; i < leaf->end; i++) {
-        const double away = squared_distance(tree, i, middle);
-        best = away < least ? i : best;
-        least = away < least ? away : least;
-    }
-    return best;
-}
 
 static double box_gap(const crease_node *a, const crease_node *b)
 {
@@ -70,80 +37,81 @@ static double box_gap(const crease_node *a, const crease_node *b)
     return sum;
 }
 
+static void begin_at(crease_candidates *candidates, const leaf_search *search, double reach)
+{
+    candidates->tree = search->tree;
+    for (int axis = 0; axis < 3; axis++) {
+        candidates->low[axis] = search->leaf->low[axis];
+        candidates->high[axis] = search->leaf->high[axis];
+    }
+    candidates->limit = reach * reach;
+    candidates->count = 0;
+}
+
 /* The leaf's own points first: candidate number i is its point i. False when there are too many. */
-static bool gather(leaf_search *search)
+static bool gather(crease_candidates *candidates, const leaf_search *search, double reach)
 {
     const crease_tree *const tree = search->tree;
     uint32_t stack[CREASE_TREE_DEPTH];
     int height = 0;
-    search->candidates->count = 0;
-    crease_candidates_add(
-        search->candidates, tree, search->leaf->begin, search->leaf->end, search->centre, INFINITY);
+    begin_at(candidates, search, reach);
+    crease_candidates_add(candidates, search->leaf->begin, search->leaf->end);
     stack[height++] = 0;
     while (height > 0) {
         const crease_node *const node = tree->nodes + stack[--height];
-        if (node == search->leaf || box_gap(node, search->leaf) > search->box_limit)
+        if (node == search->leaf || box_gap(node, search->leaf) > candidates->limit)
             continue;
         if (node->second) {
             stack[height++] = node->second;
             stack[height++] = (uint32_t)(node + 1 - tree->nodes);
-        } else if (!crease_candidates_add(search->candidates, tree, node->begin, node->end,
-                       search->centre, search->limit)) {
+        } else if (!crease_candidates_add(candidates, node->begin, node->end)) {
             return false;
         }
     }
     return true;
 }
 
-/* Looks up the middle point and bounds all others by it. */
-static void look_up_middle(leaf_search *search, uint32_t *positions, double *squared_distances)
+/* Finds the nearest points of one point from the root; returns the squared k-th distance. */
+static double look_up(const leaf_search *search, uint32_t position)
 {
     const crease_tree *const tree = search->tree;
-    const size_t k = (size_t)search->k;
-    const size_t row = (search->middle - search->leaf->begin) * k;
-    place_of(tree, search->middle, search->centre);
+    const size_t row = (position - search->leaf->begin) * (size_t)search->k;
+    const double place[3] = {tree->x[position], tree->y[position], tree->z[position]};
     crease_tree_nearest_place(
-        tree, search->centre, search->middle, search->k, positions + row, squared_distances + row);
-    search->reach = sqrt(squared_distances[row + k - 1]);
-    double farthest = 0;
-    for (uint32_t i = search->leaf->begin; i < search->leaf->end; i++) {
-        const double away = squared_distance(tree, i, search->centre);
-        farthest = away > farthest ? away : farthest;
-    }
-    const double box = above(search->reach + sqrt(farthest));
-    const double ball = above(box + sqrt(farthest));
-    search->box_limit = box * box;
-    search->limit = ball * ball;
+        tree, place, position, search->k, search->positions + row, search->distances + row);
+    return search->distances[row + (size_t)search->k - 1];
 }
 
-static bool search_candidates(
-    const leaf_search *search, uint32_t position, uint32_t *positions, double *squared_distances)
+/* Gathers candidates; false when that is not worth while. */
+static bool prepare(crease_candidates *candidates, const leaf_search *search, double reach)
 {
-    crease_request request = {.self = position - search->leaf->begin, .k = search->k};
-    place_of(search->tree, position, request.place);
-    const double away = sqrt(squared_distance(search->tree, position, search->centre));
-    const double bound = above(search->reach + away);
-    request.bound = bound * bound;
-    request.guess = 1.1 * search->reach * search->reach;
-    return crease_candidates_nearest(search->candidates, &request, positions, squared_distances);
+    const uint32_t begin = search->leaf->begin, end = search->leaf->end;
+    if (end - begin < LEAST_POINTS)
+        return false;
+    if (reach > 0 && gather(candidates, search, MARGIN * reach))
+        return true;
+    return gather(candidates, search, MARGIN * sqrt(look_up(search, begin + (end - begin) / 2)));
 }
 
-void crease_tree_leaf_nearest(
-    const crease_tree *tree, size_t leaf, int k, uint32_t *positions, double *squared_distances)
+void crease_tree_leaf_nearest(const crease_tree *tree, size_t leaf, int k, double *reach,
+    uint32_t *positions, double *squared_distances)
 {
     crease_candidates candidates;
-    leaf_search search = {.tree = tree, .leaf = tree->nodes + tree->leaves[leaf], .k = k};
-    search.candidates = &candidates;
-    search.middle = find_middle(tree, search.leaf);
-    look_up_middle(&search, positions, squared_distances);
-    const bool together = search.leaf->end - search.leaf->begin >= LEAST_POINTS && gather(&search);
-    for (uint32_t i = search.leaf->begin; i < search.leaf->end; i++) {
-        double place[3];
-        const size_t row = (i - search.leaf->begin) * (size_t)k;
-        if (i == search.middle ||
-            (together && search_candidates(&search, i, positions + row, squared_distances + row)))
-            continue;
-        place_of(tree, i, place);
-        crease_tree_nearest_place(tree, place, i, k, positions + row, squared_distances + row);
+    const leaf_search search = {
+        tree, tree->nodes + tree->leaves[leaf], k, positions, squared_distances};
+    const uint32_t count = search.leaf->end - search.leaf->begin;
+    const bool together = prepare(&candidates, &search, *reach);
+    double sum = 0, farthest = together ? candidates.limit / (MARGIN * MARGIN) : 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const size_t row = i * (size_t)k;
+        const crease_request request = {.self = i, .k = k, .guess = MORE * farthest};
+        if (together &&
+            crease_candidates_nearest(
+                &candidates, &request, positions + row, squared_distances + row))
+            farthest = squared_distances[row + (size_t)k - 1];
+        else
+            farthest = look_up(&search, search.leaf->begin + i);
+        sum += sqrt(farthest);
     }
+    *reach = sum / count;
 }

@@ -24,9 +24,10 @@ static void fill(void *user, size_t begin, size_t end, int worker)
     const size_t k = (size_t)filling->neighbours->k;
     uint32_t positions[CREASE_LEAF_POINTS * CREASE_MOST_NEIGHBOURS];
     double distances[CREASE_LEAF_POINTS * CREASE_MOST_NEIGHBOURS];
+    double reach = 0;
     for (size_t leaf = begin; leaf < end; leaf++) {
         const crease_node *const node = tree->nodes + tree->leaves[leaf];
-        crease_tree_leaf_nearest(tree, leaf, (int)k, positions, distances);
+        crease_tree_leaf_nearest(tree, leaf, (int)k, &reach, positions, distances);
         const uint32_t *from = positions;
         for (uint32_t position = node->begin; position < node->end; position++) {
             uint32_t *to = filling->neighbours->indices + tree->index[position] * k;
