@@ -3,7 +3,7 @@
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 
-.PHONY: build demo test install clean
+.PHONY: build demo test bench-rivals install clean
 
 build:
 	@tools/install-dependencies build
@@ -18,6 +18,12 @@ test:
 	@cmake -S . -B build -DCREASE_TESTS=ON >/dev/null
 	@cmake --build build -j $(JOBS) -- --no-print-directory
 	@cd build && ctest --output-on-failure -j $(JOBS)
+
+# Measures whatever of the others is installed; docs/rivals.md names the packages.
+bench-rivals:
+	@cmake -S . -B build-bench -DCREASE_BENCH=ON -DCREASE_TESTS=OFF >/dev/null
+	@cmake --build build-bench -j $(JOBS) -- --no-print-directory
+	@bench/rivals build-bench --json build-bench/rivals.json --table build-bench/rivals.md
 
 install: build
 	@cmake --install build
