@@ -45,14 +45,16 @@ void crease_height_support(const crease_height *height, const double uv[2],
         const double t = crease_basis_clamp(knots, order, height->count[d], uv[d]);
         const size_t span = crease_basis_span(knots, order, height->count[d], t, sides[d]);
         out->first[d] = span + 1 - (size_t)order;
-        double values[2 * CREASE_HEIGHT_ORDER_MAX];
         if (derivatives) {
-            crease_basis_derivatives(knots, order, span, t, 1, values);
-            memcpy(out->slopes[d], values + order, (size_t)order * sizeof *values);
+            double both[2 * CREASE_HEIGHT_ORDER_MAX];
+            crease_basis_derivatives(knots, order, span, t, 1, both);
+            for (int i = 0; i < order; i++) {
+                out->values[d][i] = both[i];
+                out->slopes[d][i] = both[order + i];
+            }
         } else {
-            crease_basis_values(knots, order, span, t, values);
+            crease_basis_values(knots, order, span, t, out->values[d]);
         }
-        memcpy(out->values[d], values, (size_t)order * sizeof *values);
     }
 }
 
