@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-enum { FEW_UNKNOWNS = 128, FEW_POINTS = 1000, MORE_ROUNDS = 3 };
+enum { FEW_UNKNOWNS = 128, FEW_POINTS = 1000, MORE_ROUNDS = 3, PLACES = 32 };
 
 /* Parameters for each point; with more of them a fit follows the noise and tells nothing. */
 static const double MOST_FREEDOM = 0.4;
@@ -181,6 +181,24 @@ static crease_status fit_round(
         return keep_lambda(context, draft, last);
     return choose_lambda(
         context, draft, choice == CREASE_CHOICE_ALL && draft->system.size <= FEW_UNKNOWNS);
+}
+
+bool crease_draft_bounded(const crease_draft *draft)
+{
+    const crease_samples *const s = draft->samples;
+    const crease_layout_axis *const axis = draft->layout.axis;
+    const crease_side sides[2] = {CREASE_SIDE_RIGHT, CREASE_SIDE_RIGHT};
+    const double most = 1.5 * hypot(s->range, s->spacing), middle = s->bottom + 0.5 * s->range;
+    for (int i = 0; i <= PLACES; i++)
+        for (int j = 0; j <= PLACES; j++) {
+            const double uv[2] = {axis[0].low + (axis[0].high - axis[0].low) * i / PLACES,
+                axis[1].low + (axis[1].high - axis[1].low) * j / PLACES};
+            double f[3];
+            crease_height_at(&draft->height, uv, sides, 0, f);
+            if (!(fabs(f[0] - middle) <= most))
+                return false;
+        }
+    return true;
 }
 
 crease_status crease_draft_fit(

@@ -45,6 +45,8 @@ void crease_draft_place(crease_draft *draft);
  * Errors: NUMERIC, NO_MEMORY, CANCELLED. */
 crease_status crease_draft_fit(
     crease_context *context, crease_draft *draft, int rounds, crease_choice choice);
+/* Whether the height stays near the points': within once their range above and below. */
+bool crease_draft_bounded(const crease_draft *draft);
 /* Frees what the draft owns. */
 void crease_draft_free(crease_draft *draft);
 /* The draft with another layout and frame, not fitted yet, otherwise alike. */

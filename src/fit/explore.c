@@ -42,7 +42,8 @@ static crease_status try_layout(crease_context *context, crease_draft *draft,
     *taken = false;
     crease_draft trial = crease_draft_variant(draft, layout, &draft->frame);
     const crease_status status = crease_draft_fit(context, &trial, ROUNDS, CREASE_CHOICE_ALL);
-    if (status == CREASE_OK && trial.score < draft->score - margin) {
+    if (status == CREASE_OK && trial.score < draft->score - margin &&
+        (crease_draft_bounded(&trial) || !crease_draft_bounded(draft))) {
         crease_draft_free(draft);
         *draft = trial;
         *taken = true;
@@ -153,6 +154,9 @@ crease_status crease_explore(crease_context *context, crease_draft *draft,
     const crease_bounds *bounds, const crease_candidate *candidates, size_t count, bool turn)
 {
     int refined = 0;
+    for (int d = 0; d < 2; d++)
+        if (bounds->net[d] == 0)
+            draft->layout.axis[d].smooth = bounds->least[d];
     crease_status status = crease_draft_fit(context, draft, ROUNDS, CREASE_CHOICE_ALL);
     for (size_t i = 0; i < count && status == CREASE_OK; i++) {
         bool taken;
@@ -182,7 +186,8 @@ static crease_status thin_out(
     crease_status status = CREASE_OK;
     for (int d = 0; d < 2; d++) {
         bool taken = bounds->net[d] == 0 && !(bounds->tolerance > 0.0);
-        while (taken && draft->layout.axis[d].smooth > 0 && status == CREASE_OK) {
+        while (
+            taken && draft->layout.axis[d].smooth > 2 * bounds->least[d] && status == CREASE_OK) {
             crease_layout layout = draft->layout;
             layout.axis[d].smooth = (layout.axis[d].smooth - 1) / 2;
             status = try_layout(context, draft, &layout, -MARGIN, &taken);

@@ -12,6 +12,7 @@
 typedef struct crease_bounds {
     size_t net[2];    /* control points, or 0: as many as the data ask for */
     size_t creases;   /* most lines in each direction */
+    size_t least[2];  /* simple knots, when the net is free */
     double tolerance; /* refine until the rms distance is below; 0: until it does not pay */
 } crease_bounds;
 

@@ -21,7 +21,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_EXPLORED = 10000, MOST_ROWS = 1024, LEAST_POINTS = 6 };
+enum { MOST_EXPLORED = 10000, MOST_ROWS = 1024, LEAST_POINTS = 6, MOST_FOR_GAPS = 7 };
 
 typedef struct work {
     const crease_sheet_options *options;
@@ -105,6 +105,19 @@ static crease_status draft_samples(
     return CREASE_OK;
 }
 
+/* In gaps a sheet of few spans goes on as it came: it needs some knots to bend at. */
+static crease_status knots_for_gaps(crease_context *context, work *w)
+{
+    crease_gaps gaps;
+    const crease_status status =
+        crease_gaps_create(context, w->draft.samples, &w->draft.layout, &gaps);
+    for (int d = 0; d < 2 && status == CREASE_OK; d++)
+        w->bounds.least[d] =
+            gaps.empty ? (gaps.count[d] < MOST_FOR_GAPS ? gaps.count[d] : MOST_FOR_GAPS) : 0;
+    crease_gaps_free(&gaps);
+    return status;
+}
+
 /* Choices, on some of the points. */
 static crease_status choose(crease_context *context, work *w)
 {
@@ -122,6 +135,8 @@ static crease_status choose(crease_context *context, work *w)
     if (status == CREASE_OK && !crease_explore_keep_net(&w->draft.layout, &w->bounds))
         status = crease_fail(context, CREASE_ERROR_ARGUMENT, "sheet: the net is too small");
     size_t count = 0, first = 0;
+    if (status == CREASE_OK)
+        status = knots_for_gaps(context, w);
     if (status == CREASE_OK) {
         first = first_candidate(w, candidates);
         status = crease_scan(context, &samples, candidates + first, &count);
@@ -138,6 +153,28 @@ static crease_status choose(crease_context *context, work *w)
     return status;
 }
 
+/* A sheet that leaves the points far behind all the same is made stiffer until it does not; when
+ * that does not help, its creases are at places where the points do not hold it. */
+static crease_status hold_back(crease_context *context, work *w)
+{
+    crease_draft *const draft = &w->draft;
+    crease_status status = CREASE_OK;
+    bool done = draft->fixed_lambda >= 0.0;
+    while (status == CREASE_OK && !done && !crease_draft_bounded(draft)) {
+        if (draft->lambda + 1 < CREASE_LAMBDAS) {
+            draft->lambda++;
+        } else {
+            draft->layout.axis[0].line_count = draft->layout.axis[1].line_count = 0;
+            crease_explore_keep_net(&draft->layout, &w->bounds);
+            done = true;
+        }
+        draft->orthogonal = draft->redescending = false;
+        crease_draft_place(draft);
+        status = crease_draft_fit(context, draft, 3, CREASE_CHOICE_NONE);
+    }
+    return status;
+}
+
 /* The final fit, on all points. */
 static crease_status finish(crease_context *context, work *w, crease_samples *samples)
 {
@@ -150,6 +187,8 @@ static crease_status finish(crease_context *context, work *w, crease_samples *sa
         status = crease_draft_fit(context, &w->draft, 4, CREASE_CHOICE_NONE);
     if (status == CREASE_OK)
         status = crease_lines_refine(context, &w->draft, w->count > MOST_EXPLORED ? 2 : 8, turn);
+    if (status == CREASE_OK)
+        status = hold_back(context, w);
     if (status == CREASE_OK)
         status = crease_lines_errors(context, &w->draft, w->errors);
     if (status == CREASE_OK)

@@ -238,6 +238,7 @@ static crease_status walk(
     crease_context *context, crease_draft *draft, const double *step, bool turn, bool *gained)
 {
     const double least = draft->mean * exp(-WORTH / draft->samples->used);
+    const bool bounded = crease_draft_bounded(draft);
     double share = 1.0;
     *gained = false;
     for (int i = 0; i < HALVINGS; i++, share *= 0.5) {
@@ -247,7 +248,8 @@ static crease_status walk(
         crease_draft_place(&trial);
         const crease_status status =
             crease_draft_fit(context, &trial, draft->orthogonal ? 4 : 3, CREASE_CHOICE_NONE);
-        if (status == CREASE_OK && trial.mean < least) {
+        if (status == CREASE_OK && trial.mean < least &&
+            (!bounded || crease_draft_bounded(&trial))) {
             crease_draft_free(draft);
             *draft = trial;
             *gained = true;

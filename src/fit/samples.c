@@ -90,6 +90,7 @@ void crease_samples_place(
         samples->target[i] = p[2];
         samples->tilt[i] = 1.0;
     }
+    samples->bottom = bottom;
     samples->range = fmax(0.0, top - bottom);
 }
 

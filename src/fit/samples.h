@@ -20,7 +20,7 @@ typedef struct crease_samples {
     double *scratch;      /* count */
     double used;          /* sum of prior */
     double spacing;       /* mean distance of neighbours */
-    double range;         /* of the heights of the points kept */
+    double bottom, range; /* of the heights of the points kept */
     double rounding;      /* below this a distance means nothing */
 } crease_samples;
 
