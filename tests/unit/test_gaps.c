@@ -221,6 +221,24 @@ static void given_three_noisy_rows_then_the_crease_is_found_and_nothing_blows_up
     crease_context_free(context);
 }
 
+/* Noise that leaves no sheet with a crease near the points. */
+static void given_three_rows_without_a_crease_then_the_sheet_stays_near_them(void **state)
+{
+    crease_context *context = given_context();
+    crease_sample_options options = crease_sample_options_default();
+    options.across = 3, options.along = 17, options.roof = true;
+    options.noise = 0.48, options.variant = 94;
+    crease_cloud *cloud = NULL;
+    crease_sheet *sheet = NULL;
+    assert_int_equal(crease_shape_sample(context, &options, &cloud), CREASE_OK);
+    assert_int_equal(crease_sheet_fit(context, cloud, NULL, &sheet), CREASE_OK);
+    const crease_accuracy a = crease_sample_accuracy(&options, sheet);
+    assert_true(a.max < 4 * options.spacing);
+    crease_sheet_free(sheet);
+    crease_cloud_free(cloud);
+    crease_context_free(context);
+}
+
 static void given_samples_then_gaps_are_where_no_point_is_near(void **state)
 {
     crease_context *context = given_context();
@@ -276,6 +294,7 @@ int main(void)
         cmocka_unit_test(given_more_control_points_than_data_then_no_swing_between_the_points),
         cmocka_unit_test(given_a_group_of_stray_points_then_it_is_set_aside),
         cmocka_unit_test(given_three_noisy_rows_then_the_crease_is_found_and_nothing_blows_up),
+        cmocka_unit_test(given_three_rows_without_a_crease_then_the_sheet_stays_near_them),
         cmocka_unit_test(given_samples_then_gaps_are_where_no_point_is_near),
         cmocka_unit_test(given_points_apart_then_groups_have_their_sizes),
     };
