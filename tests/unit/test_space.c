@@ -187,6 +187,34 @@ static void given_a_larger_cloud_then_neighbours_are_those_of_brute_force(void *
     crease_context_free(context);
 }
 
+/* The reach of the leaf before is a hint: a wrong one costs time alone. */
+static void given_any_reach_then_a_leaf_finds_the_same(void **state)
+{
+    enum { COUNT = 3000, K = 12 };
+    static const double reaches[] = {0, 1e-300, 1e-6, 0.02, 1, 1e200, INFINITY, NAN};
+    static uint32_t expected[CREASE_LEAF_POINTS * K], found[CREASE_LEAF_POINTS * K];
+    static double squared[CREASE_LEAF_POINTS * K];
+    crease_context *context = given_context();
+    for (int kind = 0; kind < KINDS; kind++) {
+        crease_tree *tree = NULL;
+        struct points points = given_points(kinds[kind].name, kinds[kind].make, COUNT);
+        assert_int_equal(crease_tree_create(context, points.xyz, COUNT, &tree), CREASE_OK);
+        for (size_t leaf = 0; leaf < tree->leaf_count; leaf += 23) {
+            const crease_node *node = tree->nodes + tree->leaves[leaf];
+            for (size_t n = 0; n < sizeof reaches / sizeof reaches[0]; n++) {
+                double reach = reaches[n];
+                crease_tree_leaf_nearest(tree, leaf, K, &reach, n ? found : expected, squared);
+                const size_t size = (node->end - node->begin) * K * sizeof *found;
+                if (n > 0 && memcmp(found, expected, size) != 0)
+                    fail_msg("%s: leaf %zu, reach %g", points.name, leaf, reaches[n]);
+            }
+        }
+        crease_tree_free(tree);
+        free(points.xyz);
+    }
+    crease_context_free(context);
+}
+
 static void given_any_place_then_the_tree_finds_what_brute_force_finds(void **state)
 {
     enum { COUNT = 700, QUERIES = 40, K = 20 };
@@ -416,6 +444,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(given_any_cloud_then_neighbours_are_those_of_brute_force),
         cmocka_unit_test(given_a_larger_cloud_then_neighbours_are_those_of_brute_force),
+        cmocka_unit_test(given_any_reach_then_a_leaf_finds_the_same),
         cmocka_unit_test(given_any_place_then_the_tree_finds_what_brute_force_finds),
         cmocka_unit_test(given_a_radius_then_all_points_within_come_by_ascending_index),
         cmocka_unit_test(given_an_impossible_radius_then_it_is_refused),
