@@ -34,8 +34,15 @@ static void result_free(result *all)
 
 /* ---------------------------------------------------------------------------------- finding -- */
 
-/* The cloud with its labels: the variance as single numbers, which is all they are good for. */
-static crease_status label(crease_context *context, const crease_cloud *cloud, result *all)
+static const uint8_t *features_of(const settings *s, const result *all)
+{
+    return s->features == FEATURES_SCORE ? crease_scores_features(all->scores)
+                                         : crease_network_features(all->network);
+}
+
+/* The cloud with its labels: the score as single numbers, which is all they are good for. */
+static crease_status label(
+    crease_context *context, const settings *s, const crease_cloud *cloud, result *all)
 {
     const size_t count = crease_cloud_count(cloud);
     float *variance = malloc((count ? count : 1) * sizeof *variance);
@@ -46,7 +53,7 @@ static crease_status label(crease_context *context, const crease_cloud *cloud, r
         variance[i] = (float)crease_scores_variance(all->scores)[i];
     const crease_field fields[] = {
         {"variance", CREASE_TYPE_FLOAT32, variance},
-        {"feature", CREASE_TYPE_UINT8, crease_network_features(all->network)},
+        {"feature", CREASE_TYPE_UINT8, features_of(s, all)},
         {"region", CREASE_TYPE_INT32, crease_regions_labels(all->regions)},
     };
     const crease_status status = crease_cloud_with_fields(context, cloud, fields, 3, &all->cloud);
@@ -69,7 +76,7 @@ static crease_status find(
     if (status != CREASE_OK)
         return status;
     report_stage(r, "creases");
-    return label(context, cloud, all);
+    return label(context, s, cloud, all);
 }
 
 /* --------------------------------------------------------------------------------- telling -- */
@@ -150,18 +157,23 @@ static void describe_network(report *r, const crease_network *network)
         report_line(r, "creases: none");
 }
 
-static void describe_features(report *r, const crease_network *network)
+static void describe_features(report *r, const settings *s, const result *all)
 {
-    const size_t count = crease_network_point_count(network);
-    const uint8_t *features = crease_network_features(network);
+    const size_t count = crease_network_point_count(all->network);
+    const uint8_t *features = features_of(s, all);
+    const double spacing = crease_network_spacing(all->network);
     size_t found = 0;
     for (size_t i = 0; i < count; i++)
         found += features[i];
+    const double percent = count ? 100.0 * (double)found / (double)count : 0.0;
     cJSON_AddNumberToObject(r->root, "features", (double)found);
-    cJSON_AddNumberToObject(r->root, "spacing", crease_network_spacing(network));
-    report_line(r, "%zu of %zu points lie on sharp edges (%.1f %%), within the spacing of %.4g",
-        found, count, count ? 100.0 * (double)found / (double)count : 0.0,
-        crease_network_spacing(network));
+    cJSON_AddNumberToObject(r->root, "spacing", spacing);
+    if (s->features == FEATURES_SCORE)
+        report_line(
+            r, "%zu of %zu points are features by their score (%.1f %%)", found, count, percent);
+    else
+        report_line(r, "%zu of %zu points lie on sharp edges (%.1f %%), within the spacing of %.4g",
+            found, count, percent, spacing);
 }
 
 /* --------------------------------------------------------------------------------- writing -- */
@@ -236,7 +248,7 @@ crease_status detect_run(crease_context *context, const settings *s, report *r)
     if (status == CREASE_OK) {
         describe_regions(r, all.regions);
         describe_network(r, all.network);
-        describe_features(r, all.network);
+        describe_features(r, s, &all);
         status = write_outputs(context, s, r, &all);
     }
     result_free(&all);

@@ -15,7 +15,7 @@ const command commands[] = {
         "points that lie on them. Nothing needs to be set.\n\n"
         "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL or OFF file; - is standard input.\n"
         "What FILE gets depends on its extension: .ply .xyz .txt .csv .asc .pts the cloud with the "
-        "fields `variance` (bootstrap variance of the normal), `feature` (1 on a sharp edge) and "
+        "fields `variance` (the score: see --detector), `feature` (1 on a sharp edge) and "
         "`region` (number of the smooth region, -1 for outliers), all points in their order; .png "
         ".svg .pdf a figure; .html a page to turn and pick points in; .json the report.",
         detect_run},

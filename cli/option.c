@@ -11,6 +11,9 @@
 #define AT(member) offsetof(settings, member)
 
 static const char *const method_names[] = {"sheet", "averaging", NULL};
+static const char *const detector_names[] = {
+    "bootstrap", "jackknife", "variation", "gauss-map", NULL};
+static const char *const feature_names[] = {"creases", "score", NULL};
 static const char *const orientation_names[] = {"automatic", "none", NULL};
 
 const option option_table[] = {
@@ -36,8 +39,23 @@ const option option_table[] = {
         "taken "
         "to err by itself",
         "0: estimated"},
+    {"detector", 'd', OPTION_CHOICE, "NAME", FOR_DETECT, AT(detector), 0, 0, detector_names,
+        "what the field `variance` holds. `bootstrap`: variance of the normal over resampled "
+        "neighbours; `jackknife`: its limit, without resampling; `variation`: surface variation, "
+        "the "
+        "share of the neighbours' variance along the normal; `gauss-map`: how far the normals of "
+        "the "
+        "neighbours' triangles fall into two clusters",
+        NULL},
+    {"features", 0, OPTION_CHOICE, "FROM", FOR_DETECT, AT(features), 0, 0, feature_names,
+        "what the field `feature` comes from. `creases`: the points within one spacing of a "
+        "crease; "
+        "`score`: the points whose score noise does not explain",
+        NULL},
+    {"false-discovery-rate", 0, OPTION_REAL, "R", FOR_DETECT, AT(detect.false_discovery_rate), 0, 1,
+        NULL, "expected share of wrong ones among the points of --features score", NULL},
     {"neighbours", 'K', OPTION_INTEGER, "K", FOR_DETECT | FOR_FIT, AT(detect.neighbours), 4, 256,
-        NULL, "neighbours of a point in the bootstrap, itself included", NULL},
+        NULL, "neighbours of a point in its score, itself included", NULL},
     {"resamples", 'B', OPTION_INTEGER, "B", FOR_DETECT | FOR_FIT, AT(detect.resamples), 2, 10000,
         NULL, "bootstrap resamples of each neighbourhood", NULL},
     {"net", 'n', OPTION_NET, "MxN", FOR_FIT, AT(net), 4, 4096, NULL,
@@ -252,8 +270,11 @@ static void expected(const option *o, char *text, size_t size)
         return;
     case OPTION_CHOICE:
         for (int i = 0; o->choices[i] && used < size; i++)
-            used +=
-                (size_t)snprintf(text + used, size - used, "%s%s", i ? " or " : "", o->choices[i]);
+            used += (size_t)snprintf(text + used, size - used, "%s%s",
+                i == 0                  ? ""
+                    : o->choices[i + 1] ? ", "
+                                        : " or ",
+                o->choices[i]);
         return;
     default:
         snprintf(text, size, "a file name (at most %d outputs)", MOST_OUTPUTS);

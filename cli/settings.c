@@ -13,6 +13,8 @@ settings settings_default(void)
         .seed = context.seed,
         .read = crease_read_options_default(),
         .detect = crease_detect_options_default(),
+        .detector = CREASE_DETECTOR_BOOTSTRAP,
+        .features = FEATURES_CREASES,
         .regions = crease_regions_options_default(),
         .method = METHOD_SHEET,
         .averaging = crease_averaging_options_default(),
@@ -30,6 +32,7 @@ void settings_resolve(settings *s)
     s->averaging.orientation = s->sheet.orientation = (crease_orientation)s->orientation;
     memcpy(s->averaging.rotation, s->rotation, sizeof s->rotation);
     memcpy(s->sheet.rotation, s->rotation, sizeof s->rotation);
+    s->detect.detector = (crease_detector)s->detector;
     s->averaging.detect = s->detect;
     if (s->net_given) {
         memcpy(s->averaging.net, s->net, sizeof s->net);

@@ -15,6 +15,9 @@ enum { MOST_OUTPUTS = 16, MOST_INPUTS = 2 };
 
 typedef enum fit_method { METHOD_SHEET, METHOD_AVERAGING } fit_method;
 
+/* What the field `feature` comes from. */
+typedef enum feature_source { FEATURES_CREASES, FEATURES_SCORE } feature_source;
+
 typedef struct settings {
     /* paths */
     const char *inputs[MOST_INPUTS];
@@ -33,6 +36,8 @@ typedef struct settings {
     crease_read_options read;
     /* what it does */
     crease_detect_options detect;
+    int detector; /* crease_detector */
+    int features; /* feature_source */
     crease_regions_options regions;
     int method; /* fit_method */
     crease_averaging_options averaging;

@@ -12,10 +12,6 @@
 
 enum { MOST_ATTEMPTS = 64 };
 
-/* Points are on a line when the spread (see eigen.h) is below: a thousand times longer than wide.
- */
-static const double line = 1e-6;
-
 /* A variance below is rounding: the neighbours lie in a plane as exactly as doubles can tell. */
 static const double rounding = 1e-20;
 
@@ -65,7 +61,7 @@ static size_t attempt(const resampling *run, size_t count, crease_matrices *matr
         solve(run, pending + begin, size, matrices, &normals);
         for (size_t i = 0; i < size; i++) {
             const uint32_t b = pending[begin + i];
-            if (normals.spread[i] > line)
+            if (normals.spread[i] > CREASE_LINE_SPREAD)
                 store(run, &normals, i, b);
             else
                 pending[left++] = b;
@@ -75,7 +71,7 @@ static size_t attempt(const resampling *run, size_t count, crease_matrices *matr
 }
 
 /* True when every resample has its normal. */
-static int resample(resampling *run, crease_matrices *matrices)
+static bool resample(resampling *run, crease_matrices *matrices)
 {
     size_t left = run->resamples->room;
     for (size_t b = 0; b < left; b++)
@@ -85,23 +81,20 @@ static int resample(resampling *run, crease_matrices *matrices)
     return left == 0;
 }
 
-void crease_normal_bootstrap_compute(const crease_neighbourhood *neighbourhood, uint64_t seed,
-    uint64_t stream, crease_resamples *resamples, crease_normal_bootstrap *out)
+bool crease_normal_bootstrap_compute(const crease_neighbourhood *neighbourhood,
+    const crease_principal *principal, uint64_t seed, uint64_t stream, crease_resamples *resamples,
+    crease_normal_bootstrap *out)
 {
     crease_matrices matrices;
-    crease_directions whole;
     memset(&matrices, 0, sizeof matrices);
-    crease_neighbourhood_covariance(neighbourhood, &matrices, 0);
-    crease_eigen_smallest(&matrices, 1, &whole);
-    *out = (crease_normal_bootstrap){.normal = {whole.x[0], whole.y[0], whole.z[0]}};
-    memcpy(out->mean, out->normal, sizeof out->mean);
-    resampling run = {neighbourhood, seed, stream, resamples, out->normal, 0};
-    out->degenerate = !(whole.spread[0] > line) || !resample(&run, &matrices);
-    if (out->degenerate)
-        return;
+    *out = (crease_normal_bootstrap){0};
+    resampling run = {neighbourhood, seed, stream, resamples, principal->normal, 0};
+    if (!resample(&run, &matrices))
+        return false;
     const double *const values[3] = {
         resamples->values[0], resamples->values[1], resamples->values[2]};
     crease_bootstrap_mean(values, 3, resamples->room, out->mean);
     const double variance = crease_bootstrap_variance(values, 3, resamples->room, out->mean);
     out->variance = variance < rounding ? 0 : variance;
+    return true;
 }

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* Step 1 of the paper: the bootstrap variance of every point. The points are gone through leaf by
- * leaf of the tree, so the neighbours of all points are never stored at once. */
+/* Step 1 of the paper: the bootstrap variance of every point, or what another detector says. The
+ * points are gone through leaf by leaf of the tree, so the neighbours of all points are never
+ * stored at once. */
 #include "detect/scores.h"
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "detect/gauss_map.h"
+#include "detect/jackknife.h"
 #include "detect/threshold.h"
 #include "space/nearest.h"
 
@@ -18,8 +21,9 @@ typedef struct scoring {
     const crease_tree *tree;
     crease_scores *scores;
     uint64_t seed;
-    int k, resamples;
-    double threshold;          /* least variance of a feature */
+    crease_detect_options options;
+    int k;
+    double threshold;          /* least score of a feature */
     crease_resamples *workers; /* one for each thread */
     double *memory;
     uint32_t *pending;
@@ -32,18 +36,44 @@ crease_detect_options crease_detect_options_default(void)
         .neighbours = 16, .resamples = 100, .false_discovery_rate = 0.05};
 }
 
+/* False when the neighbours have no normal that a score could be of. */
+static bool score_neighbourhood(const scoring *run, const crease_neighbourhood *neighbourhood,
+    const crease_principal *principal, uint32_t index, int worker, double *score)
+{
+    crease_normal_bootstrap bootstrap;
+    *score = 0;
+    if (principal->degenerate)
+        return false;
+    switch (run->options.detector) {
+    case CREASE_DETECTOR_JACKKNIFE:
+        *score = crease_jackknife_variance(neighbourhood, principal);
+        return true;
+    case CREASE_DETECTOR_VARIATION:
+        *score = crease_principal_variation(principal);
+        return true;
+    case CREASE_DETECTOR_GAUSS_MAP:
+        *score = crease_gauss_map_separation(neighbourhood);
+        return true;
+    case CREASE_DETECTOR_BOOTSTRAP:
+        break;
+    }
+    const bool found = crease_normal_bootstrap_compute(
+        neighbourhood, principal, run->seed, index, &run->workers[worker], &bootstrap);
+    *score = bootstrap.variance;
+    return found;
+}
+
 static void score_point(const scoring *run, const uint32_t *positions, int worker)
 {
     crease_neighbourhood neighbourhood;
-    crease_normal_bootstrap bootstrap;
+    crease_principal principal;
     const uint32_t index = run->tree->index[positions[0]];
     crease_neighbourhood_fill(run->tree, positions, run->k, &neighbourhood);
-    crease_normal_bootstrap_compute(
-        &neighbourhood, run->seed, index, &run->workers[worker], &bootstrap);
-    run->scores->variance[index] = bootstrap.variance;
+    crease_principal_compute(&neighbourhood, &principal);
+    run->degenerate[index] = !score_neighbourhood(
+        run, &neighbourhood, &principal, index, worker, &run->scores->variance[index]);
     for (size_t axis = 0; axis < 3; axis++)
-        run->scores->normals[3 * (size_t)index + axis] = bootstrap.normal[axis];
-    run->degenerate[index] = bootstrap.degenerate != 0;
+        run->scores->normals[3 * (size_t)index + axis] = principal.normal[axis];
 }
 
 static void score_leaves(void *user, size_t begin, size_t end, int worker)
@@ -62,7 +92,7 @@ static void score_leaves(void *user, size_t begin, size_t end, int worker)
 
 static crease_status allocate(crease_context *context, scoring *run)
 {
-    const size_t count = run->tree->count, room = (size_t)run->resamples;
+    const size_t count = run->tree->count, room = (size_t)run->options.resamples;
     const size_t threads = (size_t)crease_context_threads(context);
     crease_scores *const scores = run->scores;
     scores->variance = crease_allocate(context, count, sizeof *scores->variance);
@@ -112,8 +142,31 @@ static void mark_features(void *user, size_t begin, size_t end, int worker)
     }
 }
 
+/* The least score is that over an edge that the normals turn around by ten degrees, with evenly
+ * spread neighbours and no noise: heights |x| t, t = tan 5 degrees, for x uniform in -1..1. */
+static crease_threshold_rule rule_of(const scoring *run)
+{
+    const double squared_tangent = 0.08748866352592401 * 0.08748866352592401;
+    crease_threshold_rule rule = {
+        .most = 1, .k = run->k, .rate = run->options.false_discovery_rate};
+    switch (run->options.detector) {
+    case CREASE_DETECTOR_BOOTSTRAP:
+    case CREASE_DETECTOR_JACKKNIFE:
+        rule.least = 0.3 * squared_tangent / run->k; /* variance of the slope */
+        break;
+    case CREASE_DETECTOR_VARIATION:
+        rule.most = 1.0 / 3;
+        rule.least = squared_tangent / 8; /* 1/12, of the heights, over 2/3, of a square */
+        break;
+    case CREASE_DETECTOR_GAUSS_MAP:
+        rule.least = squared_tangent; /* half the squared tangents' distance: many normals lie
+                                         between those of the faces */
+    }
+    return rule;
+}
+
 /* Points without a normal tell nothing; a cloud of nothing else is no surface. */
-static crease_status decide(crease_context *context, scoring *run, double rate)
+static crease_status decide(crease_context *context, scoring *run)
 {
     crease_scores *const scores = run->scores;
     size_t degenerate = 0;
@@ -124,11 +177,12 @@ static crease_status decide(crease_context *context, scoring *run, double rate)
             "scores: the %d nearest points of every point lie on a line or in one point; take more "
             "neighbours or leave out duplicate points",
             run->k);
-    run->threshold = crease_threshold_find(scores->variance, scores->count, run->k, rate);
+    const crease_threshold_rule rule = rule_of(run);
+    run->threshold = crease_threshold_find(scores->variance, scores->count, &rule);
     return crease_parallel_for(context, scores->count, POINT_GRAIN, mark_features, run);
 }
 
-static crease_status compute(crease_context *context, scoring *run, double rate)
+static crease_status compute(crease_context *context, scoring *run)
 {
     crease_status status = allocate(context, run);
     if (status == CREASE_OK) {
@@ -136,7 +190,7 @@ static crease_status compute(crease_context *context, scoring *run, double rate)
         status = crease_parallel_for(context, run->tree->leaf_count, LEAF_GRAIN, score_leaves, run);
     }
     if (status == CREASE_OK)
-        status = decide(context, run, rate);
+        status = decide(context, run);
     free(run->degenerate);
     free(run->workers);
     free(run->memory);
@@ -147,6 +201,10 @@ static crease_status compute(crease_context *context, scoring *run, double rate)
 static crease_status check(
     crease_context *context, size_t count, const crease_detect_options *options)
 {
+    if ((unsigned)options->detector > CREASE_DETECTOR_GAUSS_MAP)
+        return crease_fail(context, CREASE_ERROR_ARGUMENT,
+            "scores: there is no detector number %d; take one of crease_detector",
+            (int)options->detector);
     if (options->neighbours < LEAST_NEIGHBOURS || options->neighbours > CREASE_MOST_NEIGHBOURS)
         return crease_fail(context, CREASE_ERROR_ARGUMENT,
             "scores: %d neighbours asked for; take %d to %d", options->neighbours, LEAST_NEIGHBOURS,
@@ -186,10 +244,12 @@ crease_status crease_scores_compute(crease_context *context, const crease_cloud 
     if (!scores)
         goto done;
     scores->count = count;
-    scoring run = {.tree = tree, .scores = scores, .seed = crease_context_seed(context)};
-    run.k = chosen.neighbours;
-    run.resamples = chosen.resamples;
-    status = compute(context, &run, chosen.false_discovery_rate);
+    scoring run = {.tree = tree,
+        .scores = scores,
+        .seed = crease_context_seed(context),
+        .options = chosen,
+        .k = chosen.neighbours};
+    status = compute(context, &run);
 done:
     crease_tree_free(tree);
     if (status == CREASE_OK)

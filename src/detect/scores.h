@@ -5,7 +5,7 @@
 #ifndef CREASE_DETECT_SCORES_H
 #define CREASE_DETECT_SCORES_H
 
-#include "detect/neighbourhood.h"
+#include "detect/principal.h"
 
 struct crease_scores {
     size_t count;
@@ -21,15 +21,16 @@ typedef struct crease_resamples {
     uint32_t *pending; /* resamples that have no normal yet, room */
 } crease_resamples;
 
-/* Bootstrap of the normal of one neighbourhood. seed, stream: of the random draws. */
+/* Bootstrap of the normal of one neighbourhood. */
 typedef struct crease_normal_bootstrap {
-    double normal[3]; /* of the whole neighbourhood, unit; sign arbitrary */
-    double mean[3];   /* eq. 3: mean of the resampled normals, turned to the side of `normal` */
-    double variance;  /* eq. 4: trace of their covariance */
-    int degenerate;   /* the neighbours lie on a line or in a point: normal arbitrary, variance 0 */
+    double mean[3];  /* eq. 3: mean of the resampled normals, turned to the side of the normal */
+    double variance; /* eq. 4: trace of their covariance */
 } crease_normal_bootstrap;
 
-void crease_normal_bootstrap_compute(const crease_neighbourhood *neighbourhood, uint64_t seed,
-    uint64_t stream, crease_resamples *resamples, crease_normal_bootstrap *out);
+/* seed, stream: of the random draws. False when resamples have no normal, however often they are
+ * drawn: the neighbours are nearly all in one place. The neighbourhood must not be degenerate. */
+bool crease_normal_bootstrap_compute(const crease_neighbourhood *neighbourhood,
+    const crease_principal *principal, uint64_t seed, uint64_t stream, crease_resamples *resamples,
+    crease_normal_bootstrap *out);
 
 #endif

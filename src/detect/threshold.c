@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* On smooth ground the logarithm of the variance is close to normally distributed: its centre
- * follows from noise, spacing and K, its width is about 2 / sqrt(K). Both are read off the lower
- * half of all values, which edges do not reach: the median and the 16th percentile; where a cloud
- * is a mixture (flat faces beside curved ones, without noise), the width is held near its
+/* A score x that cannot exceed m is looked at as x / (1 - x / m), which can: the square of a
+ * tangent instead of a sine. On smooth ground its logarithm is close to normally distributed: its
+ * centre follows from noise, spacing and K, its width is about 2 / sqrt(K). Both are read off the
+ * lower half of all values, which edges do not reach: the median and the 16th percentile; where a
+ * cloud is a mixture (flat faces beside curved ones, without noise), the width is held near its
  * theoretical value. Each point's probability under this null then goes through the step-up rule
  * for the false discovery rate. On data without noise the null is a point at zero, so a least
- * variance is asked for as well: that of an edge where the normals turn by ten degrees.
+ * score is asked for as well.
  *
  * Based on: Benjamini, Hochberg. Controlling the false discovery rate. 1995.
  * Based on: Efron. Large-scale simultaneous hypothesis testing: the choice of a null hypothesis.
@@ -17,14 +18,17 @@
 #include <math.h>
 #include <string.h>
 
-/* A histogram of ln(variance): bins of 1/50 from e^-92, which stands for zero, to 1. */
+/* A histogram of ln(score): bins of 1/50 from e^-92, which stands for zero, to 1 and more. */
 enum { BINS = 4600, PER_UNIT = 50 };
+
+/* Scores are no closer to the greatest possible one than this. */
+static const double rounding = 1e-12;
 
 static const double lowest = -92.0;
 
-static size_t bin_of(double variance)
+static size_t bin_of(double score)
 {
-    const double place = variance > 0 ? (log(variance) - lowest) * PER_UNIT : 0;
+    const double place = score > 0 ? (log(score) - lowest) * PER_UNIT : 0;
     return place < 0 ? 0 : place < BINS ? (size_t)place : BINS - 1;
 }
 
@@ -33,7 +37,7 @@ static double value_of(double bin)
     return lowest + bin / PER_UNIT;
 }
 
-/* ln(variance) below which the share of all points lies, interpolated within its bin. */
+/* ln(score) below which the share of all points lies, interpolated within its bin. */
 static double quantile(const size_t *histogram, size_t count, double share)
 {
     const double wanted = share * (double)count;
@@ -45,14 +49,6 @@ static double quantile(const size_t *histogram, size_t count, double share)
         below += here;
     }
     return 0;
-}
-
-/* Variance over an edge that the normals turn around by ten degrees, with evenly spread neighbours:
- * heights |x| tan(5 degrees) for x uniform in -1..1 have a slope of variance 0.3 tan^2 / k. */
-static double least_variance(int k)
-{
-    const double tangent = 0.08748866352592401;
-    return 0.3 * tangent * tangent / k;
 }
 
 /* The first bin so that of the points from it on, noise explains a share below the rate. */
@@ -70,17 +66,18 @@ static size_t step_up(
     return first;
 }
 
-double crease_threshold_find(const double *variance, size_t count, int k, double rate)
+double crease_threshold_find(const double *scores, size_t count, const crease_threshold_rule *rule)
 {
     size_t histogram[BINS];
     memset(histogram, 0, sizeof histogram);
     for (size_t i = 0; i < count; i++)
-        histogram[bin_of(variance[i])]++;
+        histogram[bin_of(scores[i] / fmax(1 - scores[i] / rule->most, rounding))]++;
     const double centre = quantile(histogram, count, 0.5);
     const double measured = fmax(centre - quantile(histogram, count, 0.1587), 1.0 / PER_UNIT);
-    const double width = fmin(measured, 3 / sqrt(k));
-    const size_t first = step_up(histogram, count, centre, width, rate);
+    const double width = fmin(measured, 3 / sqrt(rule->k));
+    const size_t first = step_up(histogram, count, centre, width, rule->rate);
     if (first == BINS)
         return INFINITY;
-    return fmax(exp(value_of((double)first)), least_variance(k));
+    const double found = exp(value_of((double)first));
+    return fmax(found / (1 + found / rule->most), rule->least);
 }

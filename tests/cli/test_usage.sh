@@ -21,7 +21,10 @@ expect 2 "whole number from 4 to 256" detect cloud.ply -K 3
 expect 2 "whole number from 4 to 256" detect cloud.ply -K 16.5
 expect 2 "number from 0 to 100" example panel --noise 101
 expect 2 "number from 0 to 100" example panel --noise nan
-expect 2 "no option" detect cloud.ply --false-discovery-rate 0.1
+expect 2 "no option" detect cloud.ply --tolerance 0.1
+expect 2 "number from 0 to 1" detect cloud.ply --false-discovery-rate 1.1
+expect 2 "bootstrap, jackknife, variation or gauss-map" detect cloud.ply --detector curvature
+expect 2 "creases or score" detect cloud.ply --features none
 expect 2 ".brep .ply .obj .csv" detect cloud.ply --creases out.xyz
 expect 2 "6x6" fit cloud.ply --net 6
 expect 2 "6x6" fit cloud.ply --net 3x6

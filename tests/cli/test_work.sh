@@ -77,6 +77,22 @@ expect 3 "this is no CAD file" compare roof.csv roof.csv
 expect 2 "one argument too many" compare roof.step roof.csv roof.csv
 expect 2 "one argument too many" info roof.step roof.csv
 
+# --- other detectors, and features by score
+for detector in jackknife variation gauss-map; do
+    expect 0 "creases: 1," detect panel.ply --detector $detector -o $detector.ply
+    expect 0 "features by their score" detect cube.ply --detector $detector --features score -o $detector.csv
+    check "$detector: the cube's edges are features, the faces' middles are not" python3 -c '
+import sys
+rows = [line.split(",") for line in open(sys.argv[1]).read().split("\n")[1:] if line]
+for r in rows:
+    x, y, z, feature = float(r[0]), float(r[1]), float(r[2]), int(float(r[-2]))
+    away = sorted(min(v, 1 - v) for v in (x, y, z))
+    assert away[1] > 1e-9 or away[2] < 0.1 or feature == 1, r
+    assert away[1] < 0.1 or feature == 0, r' $detector.csv
+done
+check "creases do not depend on the detector" sh -c '
+    "$0" detect panel.ply -q -d variation --creases a.csv && "$0" detect panel.ply -q --creases b.csv && cmp a.csv b.csv' "$crease"
+
 # --- a known noise is taken as it is: with a large one the panel's edge drowns
 expect 0 "noise 0.001" detect panel.ply --sigma 0.001 -o known.ply
 expect 0 "creases: 1" detect panel.ply --sigma 0.001 -o known.ply

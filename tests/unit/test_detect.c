@@ -534,13 +534,15 @@ static void given_a_neighbourhood_then_the_mean_lies_between_the_resampled_norma
         positions[i] = i;
     crease_neighbourhood neighbourhood;
     crease_normal_bootstrap found;
+    crease_principal principal;
     crease_neighbourhood_fill(tree, positions, COUNT, &neighbourhood);
-    crease_normal_bootstrap_compute(&neighbourhood, 1, 2, &room, &found);
-    assert_false(found.degenerate);
+    crease_principal_compute(&neighbourhood, &principal);
+    assert_false(principal.degenerate);
+    assert_true(crease_normal_bootstrap_compute(&neighbourhood, &principal, 1, 2, &room, &found));
     double length = 0, along = 0;
     for (int axis = 0; axis < 3; axis++) {
         length += found.mean[axis] * found.mean[axis];
-        along += found.mean[axis] * found.normal[axis];
+        along += found.mean[axis] * principal.normal[axis];
     }
     assert_true(along > 0 && length <= 1);
     assert_near(found.variance, (1 - length) * 200 / 199, 1e-12); /* of unit vectors */
@@ -553,7 +555,7 @@ static crease_status status_of(maker *make, size_t count, int k, int resamples, 
 {
     crease_context *context = given_context();
     crease_cloud *cloud = given_cloud(context, make, count);
-    const crease_detect_options options = {k, resamples, rate};
+    const crease_detect_options options = {k, resamples, rate, CREASE_DETECTOR_BOOTSTRAP};
     crease_scores *scores = NULL;
     const crease_status status = crease_scores_compute(context, cloud, &options, &scores);
     assert_true((status == CREASE_OK) == (scores != NULL));
