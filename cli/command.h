@@ -21,6 +21,7 @@ typedef struct command {
 extern const command commands[];
 extern const size_t command_count;
 
+crease_status filter_run(crease_context *context, const settings *s, report *r);
 crease_status detect_run(crease_context *context, const settings *s, report *r);
 crease_status fit_run(crease_context *context, const settings *s, report *r);
 crease_status example_run(crease_context *context, const settings *s, report *r);

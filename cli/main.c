@@ -10,6 +10,15 @@
 #include <string.h>
 
 const command commands[] = {
+    {"filter", FOR_FILTER, "filter CLOUD -o FILE [OPTIONS]", "take noise off a cloud, edges kept",
+        "Finds outliers, and moves every other point onto the surface that the points on its own "
+        "side of any edge suggest. Nothing needs to be set.\n\n"
+        "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL or OFF file; - is standard input.\n"
+        "What FILE gets depends on its extension: .ply .xyz .txt .csv .asc .pts the filtered "
+        "cloud, all points in their order, with the field `outlier` (1 or 0; outliers stay where "
+        "they are); .png .svg .pdf a figure; .html a page to turn and pick points in; .json the "
+        "report.",
+        filter_run},
     {"detect", FOR_DETECT, "detect CLOUD -o FILE [OPTIONS]", "find the sharp edges of a cloud",
         "Finds the smooth regions of a cloud, the creases in which they meet at an angle, and the "
         "points that lie on them. Nothing needs to be set.\n\n"

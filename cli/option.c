@@ -18,8 +18,8 @@ static const char *const orientation_names[] = {"automatic", "none", NULL};
 
 const option option_table[] = {
     {"output", 'o', OPTION_OUTPUT, "FILE",
-        FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_EXAMPLE | FOR_REPRODUCE, 0, 0, 0, NULL,
-        "what to write; may be given several times, the extension says what", "nothing"},
+        FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_FILTER | FOR_EXAMPLE | FOR_REPRODUCE, 0, 0, 0,
+        NULL, "what to write; may be given several times, the extension says what", "nothing"},
     {"creases", 0, OPTION_PATH, "FILE", FOR_DETECT | FOR_FIT, AT(creases), 0, 0, NULL,
         "write the creases: as lines to .ply, .obj or .csv, as the curves that they are to .step, "
         ".stp, .iges, .igs or .brep",
@@ -28,17 +28,24 @@ const option option_table[] = {
         "write the cloud projected onto the surface, with the field `deviation`: .ply, .xyz, .csv, "
         "...",
         "not written"},
-    {"report", 0, OPTION_PATH, "FILE", FOR_DETECT | FOR_FIT | FOR_COMPARE, AT(report), 0, 0, NULL,
-        "write the report as JSON", "not written"},
+    {"report", 0, OPTION_PATH, "FILE", FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_FILTER, AT(report),
+        0, 0, NULL, "write the report as JSON", "not written"},
     {"method", 'm', OPTION_CHOICE, "NAME", FOR_FIT, AT(method), 0, 0, method_names,
         "`sheet`: creases are knot lines placed where the data show them; `averaging`: the paper's "
         "Algorithm 1",
         NULL},
-    {"sigma", 0, OPTION_REAL, "S", FOR_DETECT, AT(regions.sigma), 0, 1e150, NULL,
+    {"sigma", 0, OPTION_REAL, "S", FOR_DETECT | FOR_FILTER, AT(sigma), 0, 1e150, NULL,
         "noise of the points along the normal, when it is known: a length; each point is then "
-        "taken "
-        "to err by itself",
+        "taken to err by itself",
         "0: estimated"},
+    {"window", 'w', OPTION_INTEGER, "K", FOR_FILTER, AT(filter.neighbours), 25, 256, NULL,
+        "points among which a point's surface is sought, itself included", NULL},
+    {"passes", 'p', OPTION_INTEGER, "N", FOR_FILTER, AT(filter.passes), 0, 10, NULL,
+        "times every point is moved; 0: only outliers are found", NULL},
+    {"outlier-sigmas", 0, OPTION_REAL, "X", FOR_FILTER, AT(filter.outlier_sigmas), 0.1, 1e6, NULL,
+        "an outlier is further from the surface than this many times the noise", NULL},
+    {"remove-outliers", 0, OPTION_FLAG, NULL, FOR_FILTER, AT(filter.remove_outliers), 0, 0, NULL,
+        "leave outliers out instead of marking them", NULL},
     {"detector", 'd', OPTION_CHOICE, "NAME", FOR_DETECT, AT(detector), 0, 0, detector_names,
         "what the field `variance` holds. `bootstrap`: variance of the normal over resampled "
         "neighbours; `jackknife`: its limit, without resampling; `variation`: surface variation, "
@@ -95,9 +102,9 @@ const option option_table[] = {
         "points of the panel", "20000"},
     {"seeds", 0, OPTION_INTEGER, "N", FOR_REPRODUCE, AT(seeds), 1, 100000, NULL,
         "random repetitions for each noise level", NULL},
-    {"skip-invalid", 0, OPTION_FLAG, NULL, FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_INFO,
-        AT(read.skip_invalid), 0, 0, NULL,
-        "leave out points that are not finite numbers instead of stopping", NULL},
+    {"skip-invalid", 0, OPTION_FLAG, NULL,
+        FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_FILTER | FOR_INFO, AT(read.skip_invalid), 0, 0,
+        NULL, "leave out points that are not finite numbers instead of stopping", NULL},
     {"seed", 's', OPTION_SEED, "N", FOR_DETECT | FOR_FIT | FOR_EXAMPLE | FOR_REPRODUCE, AT(seed), 0,
         0, NULL, "seed of every random draw", NULL},
     {"threads", 't', OPTION_INTEGER, "N", FOR_ALL, AT(threads), 0, 1024, NULL,

@@ -18,7 +18,8 @@ enum {
     FOR_EXAMPLE = 8,
     FOR_REPRODUCE = 16,
     FOR_COMPARE = 32,
-    FOR_ALL = 63
+    FOR_FILTER = 64,
+    FOR_ALL = 127
 };
 
 typedef enum option_kind {

@@ -16,6 +16,7 @@ settings settings_default(void)
         .detector = CREASE_DETECTOR_BOOTSTRAP,
         .features = FEATURES_CREASES,
         .regions = crease_regions_options_default(),
+        .filter = crease_filter_options_default(),
         .method = METHOD_SHEET,
         .averaging = crease_averaging_options_default(),
         .sheet = crease_sheet_options_default(),
@@ -32,6 +33,7 @@ void settings_resolve(settings *s)
     s->averaging.orientation = s->sheet.orientation = (crease_orientation)s->orientation;
     memcpy(s->averaging.rotation, s->rotation, sizeof s->rotation);
     memcpy(s->sheet.rotation, s->rotation, sizeof s->rotation);
+    s->regions.sigma = s->filter.sigma = s->sigma;
     s->detect.detector = (crease_detector)s->detector;
     s->averaging.detect = s->detect;
     if (s->net_given) {

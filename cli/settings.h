@@ -39,7 +39,9 @@ typedef struct settings {
     int detector; /* crease_detector */
     int features; /* feature_source */
     crease_regions_options regions;
-    int method; /* fit_method */
+    crease_filter_options filter;
+    double sigma; /* for the regions and the filter */
+    int method;   /* fit_method */
     crease_averaging_options averaging;
     crease_sheet_options sheet;
     int orientation; /* crease_orientation, shared by both methods */

@@ -285,6 +285,47 @@ CREASE_API double crease_noise_sigma(const crease_noise *noise);
  * point lies on, not a mean of both. */
 CREASE_API const double *crease_noise_normals(const crease_noise *noise);
 
+/* ----------------------------------------------------------------------------------- filter -- */
+
+/** A cloud with less noise, its outliers set aside. */
+typedef struct crease_filtered crease_filtered;
+
+typedef struct crease_filter_options {
+    int neighbours; /**< points that a point's surface is sought among, itself included; 25..256;
+                         default 48 */
+    int passes;     /**< times every point is moved, 0..10; 0: only outliers are found; default 1 */
+    double outlier_sigmas; /**< an outlier is further from the surface than this many standard
+                                deviations, above 0; default 5 */
+    double sigma;          /**< noise along the normal, when it is known; default 0: estimated */
+    bool remove_outliers;  /**< leave outliers out instead of marking them; default false */
+} crease_filter_options;
+
+CREASE_API crease_filter_options crease_filter_options_default(void);
+/** Moves every point onto the surface that the points on its own side of any edge suggest: a plane
+ * or a quadric through those neighbours whose normals agree. Edges stay sharp. Outliers are points
+ * further from that surface than noise explains, or with neighbours several times as far as theirs:
+ * they stay where they are. Normals and fields come along unchanged. Deterministic. O(n log n); 700
+ * bytes of memory for each point. Errors: ARGUMENT, TOO_FEW_POINTS (below 4), DEGENERATE (all
+ * points equal or on one line), NO_MEMORY, CANCELLED. */
+CREASE_API crease_status crease_cloud_filter(crease_context *context, const crease_cloud *cloud,
+    const crease_filter_options *options, crease_filtered **out);
+CREASE_API void crease_filtered_free(crease_filtered *filtered);
+/** The filtered cloud: all points in their order with the field `outlier` (1 or 0), or, with
+ * remove_outliers, the others in their order. */
+CREASE_API const crease_cloud *crease_filtered_cloud(const crease_filtered *filtered);
+/** For every point of the input 1 if it is an outlier, else 0. */
+CREASE_API const uint8_t *crease_filtered_outliers(const crease_filtered *filtered);
+CREASE_API size_t crease_filtered_outlier_count(const crease_filtered *filtered);
+/** Mean spacing, in the unit of the cloud. */
+CREASE_API double crease_filtered_spacing(const crease_filtered *filtered);
+/** Noise along the normal before: given or estimated. */
+CREASE_API double crease_filtered_sigma(const crease_filtered *filtered);
+/** Noise estimated again: the roughness that is left, at least 0.03 spacings. The error of the
+ * surface itself is larger, because neighbours now err alike. */
+CREASE_API double crease_filtered_sigma_after(const crease_filtered *filtered);
+/** Root mean square of the distances that points were moved by. */
+CREASE_API double crease_filtered_movement(const crease_filtered *filtered);
+
 /* ------------------------------------------------------------------------------------ scores -- */
 
 /** What every point tells about a sharp edge near it. */

@@ -4,6 +4,7 @@
 . "$(dirname "$0")/given.sh"
 
 golden overview.txt --help
+golden filter_help.txt filter --help
 golden detect_help.txt detect --help
 golden fit_help.txt fit --help
 golden compare_help.txt compare --help
@@ -21,6 +22,9 @@ expect 2 "whole number from 4 to 256" detect cloud.ply -K 3
 expect 2 "whole number from 4 to 256" detect cloud.ply -K 16.5
 expect 2 "number from 0 to 100" example panel --noise 101
 expect 2 "number from 0 to 100" example panel --noise nan
+expect 2 "number from 25 to 256" filter cloud.ply --window 24
+expect 2 ".ply .xyz" filter cloud.ply -o out.step
+expect 3 "cloud.ply" filter cloud.ply -o out.ply
 expect 2 "no option" detect cloud.ply --tolerance 0.1
 expect 2 "number from 0 to 1" detect cloud.ply --false-discovery-rate 1.1
 expect 2 "bootstrap, jackknife, variation or gauss-map" detect cloud.ply --detector curvature

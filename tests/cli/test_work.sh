@@ -9,6 +9,24 @@ expect 0 "3000 points" example panel --count 3000 -o panel.ply
 expect 2 "no example" example teapot -o teapot.ply
 expect 2 "takes neither" example cube --noise 1 -o cube2.ply
 
+# --- filter
+golden filter_panel.txt filter panel.ply -o filtered.ply -o filtered.csv -o filtered.png \
+    -o filtered.html --report filtered.json
+expect 0 "field outlier: 0 to 1" info filtered.ply
+expect 0 "left out" filter panel.ply --remove-outliers -o rest.ply -o rest.svg --report rest.json
+expect 0 "moved by 0 (rms)" filter panel.ply --passes 0 -o still.ply
+expect 0 "noise 0.01 before" filter panel.ply --sigma 0.01 -o known.ply
+check "outliers are marked or left out, and counted" python3 -c '
+import json
+count = json.load(open("filtered.json"))["outliers"]
+rows = open("filtered.csv").read().split("\n")[1:]
+assert sum(int(float(r.split(",")[-1])) for r in rows if r) == count > 0
+rest = json.load(open("rest.json"))
+assert rest["outliers"] == count and 0 < rest["noise_after"] < 0.5 * rest["noise_before"], rest'
+expect 0 "$((3000 - $(grep -c ',1$' filtered.csv))) points" info rest.ply
+expect 0 "11, left out" filter panel.ply --remove-outliers --passes 0 -o clean.ply
+expect 0 "creases: 1," detect clean.ply -o clean_edges.ply
+
 # --- detect
 golden detect_cube.txt detect cube.ply -o edge.ply -o edge.csv -o edge.png -o edge.html \
     --creases edges.ply --report edge.json
@@ -138,9 +156,10 @@ expect 0 "8 x 8" fit sample.ply --method averaging --net 8x8 --row-threshold 8 -
 for threads in 1 2 4; do
     mkdir $threads
     expect 0 "" detect panel.ply -q -t $threads -o $threads/d.ply
+    expect 0 "" filter panel.ply -q -t $threads -o $threads/c.ply
     expect 0 "" fit panel.ply -q -t $threads -o $threads/f.step -o $threads/f.obj -o $threads/f.html -o $threads/f.png
 done
-for file in d.ply f.step f.obj f.html f.png; do
+for file in c.ply d.ply f.step f.obj f.html f.png; do
     check "$file is the same for 1 and 2 threads" cmp 1/$file 2/$file
     check "$file is the same for 1 and 4 threads" cmp 1/$file 4/$file
 done
