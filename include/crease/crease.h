@@ -292,7 +292,7 @@ typedef struct crease_filtered crease_filtered;
 
 typedef struct crease_filter_options {
     int neighbours; /**< points that a point's surface is sought among, itself included; 25..256;
-                         default 48 */
+                         default 64 */
     int passes;     /**< times every point is moved, 0..10; 0: only outliers are found; default 1 */
     double outlier_sigmas; /**< an outlier is further from the surface than this many standard
                                 deviations, above 0; default 5 */

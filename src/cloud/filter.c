@@ -23,7 +23,7 @@
 #include <string.h>
 
 enum {
-    NEIGHBOURS = 48,
+    NEIGHBOURS = 64,
     PASSES = 1,
     MOST_PASSES = 10,
     SMOOTHINGS = 2, /* of the normals */

@@ -139,8 +139,8 @@ static void given_noise_on_a_plane_then_it_falls_as_the_window_says(void **state
             sum += z * z;
             used++;
         }
-    /* weights (1 - r^2)^2 over 48 points: sum w^2 / (sum w)^2 = 9 / (5 x 48) for a plane */
-    const double expected = sigma * sqrt(9.0 / (5 * 48));
+    /* weights (1 - r^2)^2 over 64 points: sum w^2 / (sum w)^2 = 9 / (5 x 64) for a plane */
+    const double expected = sigma * sqrt(9.0 / (5 * 64));
     assert_near(sqrt(sum / (double)used) / expected, 1, 0.3);
     assert_near(crease_filtered_sigma(filtered) / sigma, 1, 0.1);
     assert_near(crease_filtered_movement(filtered) / sigma, 1, 0.1);
