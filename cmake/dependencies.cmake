@@ -18,7 +18,7 @@ endif()
 if(CREASE_CAD)
   find_path(OpenCASCADE_INCLUDE_DIR Standard_Version.hxx PATH_SUFFIXES opencascade occt REQUIRED)
   set(CREASE_OCCT)
-  foreach(toolkit TKSTEP TKSTEPBase TKSTEPAttr TKSTEP209 TKIGES TKXSBase TKMesh TKShHealing TKBO TKPrim TKTopAlgo TKBRep
+  foreach(toolkit TKSTEP TKSTEPBase TKSTEPAttr TKSTEP209 TKIGES TKXSBase TKMesh TKShHealing TKFillet TKBool TKBO TKPrim TKTopAlgo TKBRep
                   TKGeomAlgo TKGeomBase TKG3d TKG2d TKMath TKernel)
     find_library(OCCT_${toolkit} ${toolkit} REQUIRED)
     list(APPEND CREASE_OCCT ${OCCT_${toolkit}})

@@ -81,6 +81,83 @@ CREASE_API size_t crease_cad_model_face_count(const crease_cad_model *model);
 /** Face number index, below the count, in the order of the file. */
 CREASE_API crease_cad_face crease_cad_model_face(const crease_cad_model *model, size_t index);
 
+/* ------------------------------------------------------------------------------------ parts -- */
+
+/** A part: faces on the surfaces of its regions, trimmed by the edges that they share. */
+typedef struct crease_part crease_part;
+
+/** What became of a part, best first. */
+typedef enum crease_part_state {
+    CREASE_PART_SOLID, /**< a closed shell around a volume, valid */
+    CREASE_PART_SHELL, /**< valid faces that share edges, some of them free */
+    CREASE_PART_FACES  /**< faces of which some share no edges, or that are not valid together */
+} crease_part_state;
+
+typedef struct crease_part_options {
+    bool bspline_faces; /**< every face as a bicubic (rational where it must be) B-spline surface;
+                             default false: planes, cylinders ... as such */
+} crease_part_options;
+
+/** A face of a part. Lengths in the unit of the cloud. */
+typedef struct crease_part_face {
+    uint32_t region;    /**< number of the region whose surface it lies on; of several on one
+                             surface the largest */
+    size_t point_count; /**< points with a region that are nearest to it */
+    double area;
+    double mean, rms, p95, most; /**< their distances from it: mean signed, 95 % below p95 */
+} crease_part_face;
+
+/** An edge of a part. */
+typedef struct crease_part_edge {
+    uint32_t faces[2]; /**< numbers of the faces that share it; the same twice: a seam; second
+                            UINT32_MAX: free */
+    bool smooth;       /**< its faces join at less than 10 degrees */
+    double length;
+    double angle; /**< mean dihedral angle of its faces, through the material: 180 = flat, below 180
+                       convex; of an open shell the smaller one; 0 when free */
+} crease_part_edge;
+
+CREASE_API crease_part_options crease_part_options_default(void);
+/** Builds the part that the points lie on. The surfaces of the regions are extended and intersected
+ * all at once; the points say which of the cells between them are inside, and what bounds those
+ * cells is the part. Fillets between planes are recognised and rolled along the edges that they
+ * replace. Nothing passes for a solid unless OpenCASCADE finds it valid and closed and the points
+ * lie on it: otherwise the faces that the points support become an open shell, or at last faces
+ * side by side; never nothing. OpenCASCADE's work is done in processes of their own (fork), each of
+ * which may take 20 seconds of the processor. Not for several threads at the same time.
+ * regions: of this cloud; network: of these regions, or NULL; options may be NULL.
+ * Errors: ARGUMENT (the regions are not of this cloud), NO_MEMORY, NUMERIC (not even faces come
+ * out), CANCELLED (such a process was interrupted). */
+CREASE_API crease_status crease_part_build(crease_context *context, const crease_cloud *cloud,
+    const crease_regions *regions, const crease_network *network,
+    const crease_part_options *options, crease_part **out);
+CREASE_API void crease_part_free(crease_part *part);
+CREASE_API crease_part_state crease_part_state_of(const crease_part *part);
+/** A sentence that says what is missing, and why; "" for a solid that lacks nothing. */
+CREASE_API const char *crease_part_message(const crease_part *part);
+/** The volume; 0 unless the part is a solid. */
+CREASE_API double crease_part_volume(const crease_part *part);
+CREASE_API size_t crease_part_face_count(const crease_part *part);
+/** Face number index, below the count. */
+CREASE_API crease_part_face crease_part_face_at(const crease_part *part, size_t index);
+CREASE_API size_t crease_part_edge_count(const crease_part *part);
+/** Edge number index, below the count. */
+CREASE_API crease_part_edge crease_part_edge_at(const crease_part *part, size_t index);
+/** A cubic curve for each edge, in their order, within a millionth of the edge's size or so. */
+CREASE_API const crease_curve *const *crease_part_curves(const crease_part *part);
+/** Triangles within 1/100000 of the diagonal of the faces; their owners are the numbers of the
+ * faces. */
+CREASE_API const crease_mesh *crease_part_mesh(const crease_part *part);
+/** Signed distance of every point of the cloud from the part, positive outside; on open shells
+ * positive on the side of the faces' normals. */
+CREASE_API const double *crease_part_deviations(const crease_part *part);
+/** Number of the nearest face for every point of the cloud. */
+CREASE_API const int32_t *crease_part_nearest_faces(const crease_part *part);
+/** Writes the part: STEP (AP242), IGES or BREP by extension. Units and bytes as in
+ * crease_cad_write(). Errors: ARGUMENT (unknown extension), CANNOT_WRITE, NUMERIC, NO_MEMORY. */
+CREASE_API crease_status crease_part_write(
+    crease_context *context, const crease_part *part, const char *path);
+
 #ifdef __cplusplus
 }
 #endif

@@ -16,7 +16,9 @@
 namespace crease_cad
 {
 
-static constexpr rlim_t MOST_SECONDS = 600; /* of the processor, for one file */
+const Bounds reading_bounds = {600, "OpenCASCADE comes to no end with it; write the file anew",
+    "the content is damaged, OpenCASCADE broke down over it; write the file anew",
+    "cancelled before it was read"};
 
 /* What the other process sends before its result. */
 struct Verdict {
@@ -50,21 +52,22 @@ static bool receive_all(int pipe, void *bytes, size_t size)
 }
 
 /* Nothing is printed, no core is left, and an interrupt ends this process only. */
-static void settle()
+static void settle(rlim_t most)
 {
     const int nowhere = open("/dev/null", O_WRONLY);
     dup2(nowhere, STDOUT_FILENO);
     dup2(nowhere, STDERR_FILENO);
-    const rlimit none = {0, 0}, seconds = {MOST_SECONDS, MOST_SECONDS};
+    const rlimit none = {0, 0}, seconds = {most, most};
     setrlimit(RLIMIT_CORE, &none);
     setrlimit(RLIMIT_CPU, &seconds);
     for (const int number : {SIGINT, SIGTERM, SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU})
         std::signal(number, SIG_DFL);
 }
 
-static void work_here(int pipe, const std::function<std::vector<char>()> &work)
+static void work_here(
+    int pipe, const std::function<std::vector<char>()> &work, const Bounds &bounds)
 {
-    settle();
+    settle(bounds.seconds);
     std::vector<char> result;
     Verdict verdict = {};
     if (const std::optional<Failure> failure = failure_of([&] { result = work(); })) {
@@ -85,19 +88,17 @@ static bool receive(int pipe, Verdict &verdict, std::vector<char> &result)
     return receive_all(pipe, result.data(), result.size());
 }
 
-static Failure end_of(int status)
+static Failure end_of(int status, const Bounds &bounds)
 {
     const int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (number == SIGINT || number == SIGTERM)
-        return {CREASE_ERROR_CANCELLED, "cancelled before it was read"};
+        return {CREASE_ERROR_CANCELLED, bounds.cancelled};
     if (number == SIGXCPU || number == SIGKILL)
-        return {CREASE_ERROR_FORMAT, "OpenCASCADE comes to no end with it; write the file anew"};
-    return {CREASE_ERROR_FORMAT,
-        "the content is damaged, OpenCASCADE broke down over it; write "
-        "the file anew"};
+        return {CREASE_ERROR_FORMAT, bounds.endless};
+    return {CREASE_ERROR_FORMAT, bounds.broken};
 }
 
-std::vector<char> run_apart(const std::function<std::vector<char>()> &work)
+std::vector<char> run_apart(const std::function<std::vector<char>()> &work, const Bounds &bounds)
 {
     int ends[2];
     if (pipe(ends) != 0)
@@ -106,7 +107,7 @@ std::vector<char> run_apart(const std::function<std::vector<char>()> &work)
         fcntl(end, F_SETFD, FD_CLOEXEC);
     const pid_t child = fork();
     if (child == 0) {
-        work_here(ends[1], work);
+        work_here(ends[1], work, bounds);
         _exit(0);
     }
     close(ends[1]);
@@ -120,7 +121,7 @@ std::vector<char> run_apart(const std::function<std::vector<char>()> &work)
     while (waitpid(child, &status, 0) < 0 && errno == EINTR)
         continue;
     if (!whole)
-        throw end_of(status);
+        throw end_of(status, bounds);
     if (verdict.status != CREASE_OK)
         throw Failure{verdict.status, verdict.sentence};
     return result;

@@ -14,8 +14,17 @@
 namespace crease_cad
 {
 
-/* Runs the work apart and returns the bytes that it returns. Throws what it throws, as Failure. */
-std::vector<char> run_apart(const std::function<std::vector<char>()> &work);
+/* How long the work may take, and what is said when it does not come to its end. */
+struct Bounds {
+    unsigned seconds; /* of the processor */
+    const char *endless, *broken, *cancelled;
+};
+extern const Bounds reading_bounds;
+
+/* Runs the work apart and returns the bytes that it returns. Throws what it throws, as Failure;
+ * where it does not come to its end, a Failure of status FORMAT, or CANCELLED. */
+std::vector<char> run_apart(
+    const std::function<std::vector<char>()> &work, const Bounds &bounds = reading_bounds);
 
 /* The bytes of plain numbers or structures, one after the other. */
 template <typename Item> void append(std::vector<char> &bytes, const Item *items, size_t count)
@@ -23,6 +32,16 @@ template <typename Item> void append(std::vector<char> &bytes, const Item *items
     static_assert(std::is_trivially_copyable_v<Item>);
     const char *const begin = (const char *)items;
     bytes.insert(bytes.end(), begin, begin + count * sizeof *items);
+}
+
+/* Takes the next count items from such bytes. */
+template <typename Item> std::vector<Item> take(const char *&from, size_t count)
+{
+    std::vector<Item> items(count);
+    if (count)
+        std::memcpy((void *)items.data(), from, count * sizeof(Item));
+    from += count * sizeof(Item);
+    return items;
 }
 
 /* Work that returns a plain structure. */

@@ -95,7 +95,7 @@ static void print_step(const TopoDS_Shape &shape, const std::string &file, std::
         throw Failure{CREASE_ERROR_NUMERIC, "OpenCASCADE cannot put the faces into a STEP model"};
     const Handle(StepData_StepModel) model = writer.Model();
     set_product_name(model, file.substr(0, file.find_last_of('.')));
-    set_header(model, file, has_faces ? "B-spline surfaces" : "B-spline curves");
+    set_header(model, file, has_faces ? "faces" : "curves");
     StepData_StepWriter printer(model);
     printer.FloatWriter().SetFormat(NUMBER_FORMAT);
     printer.SendModel(Handle(StepData_Protocol)::DownCast(writer.WS()->Protocol()));

@@ -5,6 +5,7 @@
 #include "cad/apart.hpp"
 #include "cad/kernel.hpp"
 #include "cad/read.hpp"
+#include "cad/turn.hpp"
 
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepBndLib.hxx>
@@ -13,7 +14,6 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GProp_GProps.hxx>
-#include <Geom2d_Curve.hxx>
 #include <ShapeAnalysis_ShapeTolerance.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
@@ -24,54 +24,17 @@
 
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
 namespace crease_cad
 {
 
 static constexpr double INTEGRAL_ERROR = 1e-9; /* relative, of areas and volumes */
-static constexpr double SHARP_ANGLE = 10.0;    /* degrees */
-static constexpr int ANGLE_SAMPLES = 16;
 
 static TopTools_IndexedMapOfShape parts_of(const TopoDS_Shape &shape, TopAbs_ShapeEnum kind)
 {
     TopTools_IndexedMapOfShape parts;
     TopExp::MapShapes(shape, kind, parts);
     return parts;
-}
-
-/* The outward normal of the face at the edge's parameter, where it has one. */
-static std::optional<gp_Dir> normal_at(
-    const TopoDS_Edge &edge, const TopoDS_Face &face, double part)
-{
-    double first = 0, last = 0;
-    const Handle(Geom2d_Curve) line = BRep_Tool::CurveOnSurface(edge, face, first, last);
-    if (line.IsNull())
-        return std::nullopt;
-    const gp_Pnt2d uv = line->Value(first + (last - first) * part);
-    gp_Pnt point;
-    gp_Vec along_u, along_v;
-    BRepAdaptor_Surface(face, false).D1(uv.X(), uv.Y(), point, along_u, along_v);
-    const gp_Vec normal = along_u.Crossed(along_v);
-    if (normal.Magnitude() <= 1e-9 * along_u.Magnitude() * along_v.Magnitude())
-        return std::nullopt;
-    return gp_Dir(face.Orientation() == TopAbs_REVERSED ? normal.Reversed() : normal);
-}
-
-static bool is_sharp(const TopoDS_Edge &edge, const TopoDS_Face &one, const TopoDS_Face &other)
-{
-    double sum = 0;
-    int samples = 0;
-    for (int i = 0; i <= ANGLE_SAMPLES; i++) {
-        const double part = (double)i / ANGLE_SAMPLES;
-        const std::optional<gp_Dir> a = normal_at(edge, one, part),
-                                    b = normal_at(edge, other, part);
-        if (!a || !b)
-            continue;
-        sum += a->Angle(*b) * 180.0 / M_PI;
-        samples++;
-    }
-    return samples > 0 && sum / samples > SHARP_ANGLE;
 }
 
 static void count_edges(const TopoDS_Shape &shape, crease_cad_info &info)
@@ -91,7 +54,7 @@ static void count_edges(const TopoDS_Shape &shape, crease_cad_info &info)
         const TopoDS_Face first = TopoDS::Face(faces.First()), last = TopoDS::Face(faces.Last());
         if (faces.Extent() == 1 && !BRep_Tool::IsClosed(edge, first))
             info.free_edges++;
-        else if (faces.Extent() == 2 && !first.IsSame(last) && is_sharp(edge, first, last))
+        else if (faces.Extent() == 2 && !first.IsSame(last) && is_sharp(turn_at(edge, first, last)))
             info.sharp_edges++;
     }
 }

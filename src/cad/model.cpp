@@ -77,15 +77,6 @@ static std::vector<char> bytes_of(const std::string &path, double tolerance)
     return bytes;
 }
 
-/* Takes the next count items from the bytes. */
-template <typename Item> static std::vector<Item> take(const char *&from, size_t count)
-{
-    std::vector<Item> items(count);
-    std::memcpy(items.data(), from, count * sizeof(Item));
-    from += count * sizeof(Item);
-    return items;
-}
-
 static void fill(crease_context *context, const std::vector<char> &bytes, crease_cad_model &model)
 {
     const char *from = bytes.data();

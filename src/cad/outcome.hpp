@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* What an attempt came to, with everything about it that OpenCASCADE is needed for, so that it can
+ * be made in a process of its own and sent as bytes. Lengths in the unit of the cloud. */
+#ifndef CREASE_CAD_OUTCOME_HPP
+#define CREASE_CAD_OUTCOME_HPP
+
+#include "cad/job.hpp"
+#include "cad/tessellate.hpp"
+
+namespace crease_cad
+{
+
+struct FaceFact {
+    uint32_t carrier;
+    double area;
+};
+
+struct EdgeFact {
+    uint32_t faces[2]; /* see crease_part_edge */
+    bool smooth;
+    double length, angle;
+    size_t pole_count; /* of its curve */
+};
+
+struct Summary {
+    bool valid;    /* OpenCASCADE finds no fault */
+    bool closed;   /* every edge has two faces */
+    bool together; /* one set of faces connected by edges */
+    double volume; /* 0 unless it is one closed solid */
+};
+
+struct Outcome {
+    Summary summary;
+    std::string why;
+    std::vector<char> shape; /* in OpenCASCADE's binary form */
+    Triangles triangles;
+    std::vector<FaceFact> faces;
+    std::vector<EdgeFact> edges;
+    std::vector<double> poles, knots; /* of the edges' cubic curves, one after the other: 3 for each
+                                         pole, and poles + 4 knots */
+};
+
+/* Measures what the way made. Throws Failure when that has no faces. */
+Outcome measure(const Job &job, const Attempt &attempt, bool as_bsplines);
+
+std::vector<char> pack(const Outcome &outcome);
+Outcome unpack(const std::vector<char> &bytes);
+
+/* The shape in the bytes of an outcome. */
+TopoDS_Shape shape_from(const std::vector<char> &bytes);
+
+} // namespace crease_cad
+
+#endif

@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* Parts: the ways of building one are tried in turn until one gives a solid that the points lie on;
+ * failing that, the best of what came out is taken. */
+#include "cad/apart.hpp"
+#include "cad/format.hpp"
+#include "cad/judge.hpp"
+#include "cad/kernel.hpp"
+#include "cad/ways.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+struct crease_part {
+    ~crease_part();
+
+    crease_cad::Judged judged;
+    std::string message;
+    std::vector<crease_part_face> faces;
+    std::vector<crease_part_edge> edges;
+    std::vector<crease_curve *> curves;
+};
+
+crease_part::~crease_part()
+{
+    for (crease_curve *const curve : curves)
+        crease_curve_free(curve);
+}
+
+namespace crease_cad
+{
+
+static constexpr Bounds BOUNDS = {20,
+    "OpenCASCADE took longer than 20 seconds to intersect the surfaces",
+    "OpenCASCADE broke down over the surfaces", "cancelled before it was built"};
+static constexpr double GOOD_LOSS = 0.04; /* of a solid: no other way is tried */
+
+/* A way with its margin: the larger of a part of the diagonal and some spacings. */
+struct Step {
+    Way way;
+    double diagonals, spacings;
+    bool for_solid;
+};
+
+static constexpr Step steps[] = {
+    {arrange_solid, 0.03, 1.8, true},
+    {arrange_solid, 0.06, 3.6, true},
+    {arrange_solid, 0.12, 7.2, true},
+    {arrange_solid, 0.3, 18.0, true},
+    {arrange_shells, 0.03, 3.0, false},
+    {lay_out_faces, 0.0, 0.0, false},
+};
+
+/* The search for the best outcome. */
+struct Search {
+    crease_context *context;
+    const crease_cloud *cloud;
+    const Job &job;
+    bool as_bsplines;
+    std::optional<Judged> best;
+    std::string why_no_solid;
+};
+
+/* What a failed attempt means for the search: cancelling and lack of memory end it. */
+static void note(Search &search, const Failure &failure)
+{
+    if (failure.status == CREASE_ERROR_CANCELLED || failure.status == CREASE_ERROR_NO_MEMORY)
+        throw failure;
+    if (search.why_no_solid.empty())
+        search.why_no_solid = failure.sentence;
+}
+
+static std::string why_not(const Judged &judged)
+{
+    const Summary &summary = judged.outcome.summary;
+    if (!summary.closed)
+        return "the faces do not close";
+    if (!summary.valid)
+        return "OpenCASCADE finds fault with the closed shell";
+    return "the closed shell leaves points or bears faces without points";
+}
+
+static void attempt(Search &search, const Step &step)
+{
+    const Job &job = search.job;
+    const double margin = std::max(step.diagonals * job.diagonal, step.spacings * job.spacing);
+    std::vector<char> bytes;
+    try {
+        bytes = run_apart(
+            [&] { return pack(measure(job, step.way(job, margin), search.as_bsplines)); }, BOUNDS);
+    } catch (const Failure &failure) {
+        note(search, failure);
+        return;
+    }
+    Judged judged = judge(search.context, search.cloud, job, unpack(bytes));
+    if (step.for_solid && !is_true_solid(judged) && search.why_no_solid.empty())
+        search.why_no_solid = why_not(judged);
+    if (!search.best || is_better(judged, *search.best))
+        search.best = std::move(judged);
+}
+
+static bool is_enough(const Search &search, const Step &next)
+{
+    if (!search.best || !is_true_solid(*search.best))
+        return false;
+    return !next.for_solid || search.best->loss < GOOD_LOSS;
+}
+
+static void search_best(Search &search)
+{
+    for (const Step &step : steps) {
+        if (is_enough(search, step))
+            break;
+        if (!step.for_solid && search.best && search.best->state == CREASE_PART_SHELL)
+            break;
+        attempt(search, step);
+    }
+    if (!search.best)
+        throw Failure{CREASE_ERROR_NUMERIC, search.why_no_solid};
+}
+
+/* ---------------------------------------------------------------------------------- the part -- */
+
+static std::string free_edges_of(const Outcome &outcome)
+{
+    const auto is_free = [](const EdgeFact &edge) { return edge.faces[1] == UINT32_MAX; };
+    const auto count = std::count_if(outcome.edges.begin(), outcome.edges.end(), is_free);
+    return std::to_string(count) + (count == 1 ? " free edge" : " free edges");
+}
+
+static std::string message_of(const Search &search)
+{
+    const Judged &best = *search.best;
+    if (is_true_solid(best))
+        return best.outcome.why;
+    const std::string faces = std::to_string(best.outcome.faces.size()) +
+        (best.outcome.faces.size() == 1 ? " face" : " faces");
+    const std::string what = best.state == CREASE_PART_SHELL
+        ? "an open shell of " + faces + " with " + free_edges_of(best.outcome)
+        : faces + " side by side";
+    return what + ", no solid: " + search.why_no_solid;
+}
+
+/* An open shell has no material: the smaller angle. */
+static double angle_of(const EdgeFact &fact, bool solid)
+{
+    return solid ? fact.angle : std::min(fact.angle, 360.0 - fact.angle);
+}
+
+static void add_edges(crease_context *context, const Judged &best, crease_part &part)
+{
+    const Outcome &outcome = best.outcome;
+    const bool solid = is_true_solid(best);
+    const double *knots = outcome.knots.data(), *poles = outcome.poles.data();
+    for (const EdgeFact &fact : outcome.edges) {
+        part.edges.push_back(
+            {{fact.faces[0], fact.faces[1]}, fact.smooth, fact.length, angle_of(fact, solid)});
+        part.curves.push_back(nullptr);
+        require(
+            crease_curve_create(context, 4, fact.pole_count, knots, poles, &part.curves.back()));
+        knots += fact.pole_count + 4;
+        poles += 3 * fact.pole_count;
+    }
+}
+
+static std::unique_ptr<crease_part> part_of(Search &search)
+{
+    auto part = std::make_unique<crease_part>();
+    part->message = message_of(search);
+    part->faces = describe_faces(search.job, *search.best);
+    add_edges(search.context, *search.best, *part);
+    part->judged = std::move(*search.best);
+    if (!is_true_solid(part->judged)) {
+        part->judged.outcome.summary.volume = 0.0;
+        if (part->judged.state == CREASE_PART_SOLID)
+            part->judged.state = CREASE_PART_FACES;
+    }
+    return part;
+}
+
+static void check(const crease_cloud *cloud, const crease_regions *regions)
+{
+    const size_t points = crease_cloud_count(cloud);
+    if (crease_regions_point_count(regions) != points)
+        throw Failure{CREASE_ERROR_ARGUMENT,
+            "the cloud has " + std::to_string(points) + " points, its regions have " +
+                std::to_string(crease_regions_point_count(regions)) +
+                "; find the regions of this cloud"};
+}
+
+} // namespace crease_cad
+
+using namespace crease_cad;
+
+crease_part_options crease_part_options_default(void)
+{
+    return {};
+}
+
+crease_status crease_part_build(crease_context *context, const crease_cloud *cloud,
+    const crease_regions *regions, const crease_network *network,
+    const crease_part_options *options, crease_part **out)
+{
+    *out = nullptr;
+    return guard(context, "part", [&] {
+        check(cloud, regions);
+        const Job job(context, cloud, regions, network);
+        Search search = {context, cloud, job, options && options->bspline_faces, {}, ""};
+        search_best(search);
+        *out = part_of(search).release();
+    });
+}
+
+void crease_part_free(crease_part *part)
+{
+    delete part;
+}
+
+crease_part_state crease_part_state_of(const crease_part *part)
+{
+    return part->judged.state;
+}
+
+const char *crease_part_message(const crease_part *part)
+{
+    return part->message.c_str();
+}
+
+double crease_part_volume(const crease_part *part)
+{
+    return part->judged.outcome.summary.volume;
+}
+
+size_t crease_part_face_count(const crease_part *part)
+{
+    return part->faces.size();
+}
+
+crease_part_face crease_part_face_at(const crease_part *part, size_t index)
+{
+    return part->faces[index];
+}
+
+size_t crease_part_edge_count(const crease_part *part)
+{
+    return part->edges.size();
+}
+
+crease_part_edge crease_part_edge_at(const crease_part *part, size_t index)
+{
+    return part->edges[index];
+}
+
+const crease_curve *const *crease_part_curves(const crease_part *part)
+{
+    return part->curves.data();
+}
+
+const crease_mesh *crease_part_mesh(const crease_part *part)
+{
+    return part->judged.mesh.get();
+}
+
+const double *crease_part_deviations(const crease_part *part)
+{
+    return part->judged.deviations.data();
+}
+
+const int32_t *crease_part_nearest_faces(const crease_part *part)
+{
+    return part->judged.nearest.data();
+}
+
+crease_status crease_part_write(crease_context *context, const crease_part *part, const char *path)
+{
+    return guard(context, path, [&] {
+        const Format format = format_of(path);
+        const std::string text = text_of(shape_from(part->judged.outcome.shape), format, path);
+        require(crease_file_write(context, path, text.data(), text.size()));
+    });
+}
