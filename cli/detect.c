@@ -108,6 +108,29 @@ static void describe_regions(report *r, const crease_regions *regions)
         crease_regions_sigma(regions));
 }
 
+/* Rounded edges, which the regions' types do not tell from other cylinders. */
+static void describe_fillets(report *r, const crease_regions *regions)
+{
+    cJSON *list = cJSON_AddArrayToObject(r->root, "fillets");
+    double least = INFINITY, most = 0;
+    for (size_t i = 0; i < crease_regions_count(regions); i++) {
+        const crease_region region = crease_regions_at(regions, i);
+        if (region.tangent[0] < 0)
+            continue;
+        const double tangent[2] = {region.tangent[0], region.tangent[1]};
+        const double radius = region.parameters[6];
+        cJSON *object = cJSON_CreateObject();
+        cJSON_AddNumberToObject(object, "region", (double)i);
+        cJSON_AddItemToObject(object, "tangent", cJSON_CreateDoubleArray(tangent, 2));
+        cJSON_AddNumberToObject(object, "radius", radius);
+        cJSON_AddItemToArray(list, object);
+        least = fmin(least, radius);
+        most = fmax(most, radius);
+    }
+    if (most > 0)
+        report_line(r, "fillets: %d, radii %.4g to %.4g", cJSON_GetArraySize(list), least, most);
+}
+
 static cJSON *crease_object(crease_network_crease crease)
 {
     cJSON *object = cJSON_CreateObject();
@@ -247,6 +270,7 @@ crease_status detect_run(crease_context *context, const settings *s, report *r)
         status = find(context, s, r, cloud, &all);
     if (status == CREASE_OK) {
         describe_regions(r, all.regions);
+        describe_fillets(r, all.regions);
         describe_network(r, all.network);
         describe_features(r, s, &all);
         status = write_outputs(context, s, r, &all);

@@ -401,6 +401,8 @@ typedef struct crease_region {
     double rms;             /**< root mean square distance of these points from the surface */
     double chi; /**< mean squared distance over the squared noise, each cut at 9: about 1
                      when the surface explains the points */
+    int32_t tangent[2]; /**< fillets, which are cylinders: the two regions that the surface is
+                             exactly tangent to; -1: none */
 } crease_region;
 
 typedef struct crease_regions_options {
@@ -410,8 +412,9 @@ typedef struct crease_regions_options {
 
 CREASE_API crease_regions_options crease_regions_options_default(void);
 /** Finds the smooth regions: grown from smooth interiors, merged where one surface explains both,
- * and bounded where the points' distances from the surfaces say so. Deterministic. O(n log n) for
- * a fixed number of regions. Errors: ARGUMENT, TOO_FEW_POINTS (below 8), DEGENERATE (all points
+ * and bounded where the points' distances from the surfaces say so. What rounds the edge of two
+ * planes becomes a cylinder tangent to both. Deterministic. O(n log n) for a fixed number of
+ * regions. Errors: ARGUMENT, TOO_FEW_POINTS (below 8), DEGENERATE (all points
  * equal or on one line), NO_MEMORY, CANCELLED. */
 CREASE_API crease_status crease_regions_find(crease_context *context, const crease_cloud *cloud,
     const crease_regions_options *options, crease_regions **out);

@@ -9,6 +9,8 @@
 
 #include "base/context.h"
 
+#include <stdint.h>
+
 /* A height z = f(x, y) over the frame of its model, by the coefficients of a polynomial or of a
  * uniform bicubic B-spline with spans x spans cells. Beyond low..high it goes on linearly. */
 typedef struct crease_patch {
@@ -38,6 +40,8 @@ typedef struct crease_model {
     double cost;            /* of the fit: sum of squared residuals / sigma^2, cut at 9, plus
                                parameter_count log(points) */
     double chi;             /* mean of the squared residuals / sigma^2, cut at 9 */
+    int tangent_count;      /* of regions that the surface is tangent to by construction */
+    int32_t tangent[2];     /* and their numbers */
 } crease_model;
 
 /* Signed distance of a place from the model (patch fields: to first order) and its gradient, which

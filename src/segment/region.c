@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "base/select.h"
 #include "cloud/cloud.h"
+#include "segment/fillet.h"
 #include "segment/segmentation.h"
 #include "space/morton.h"
 
@@ -117,7 +118,9 @@ static crease_status run_stages(crease_segmentation *seg)
             done.changed < seg->count / STILL + 1)
             break;
     }
-    return status == CREASE_OK ? polish(seg) : status;
+    if (status == CREASE_OK)
+        status = polish(seg);
+    return status == CREASE_OK ? crease_fillets_find(seg) : status;
 }
 
 /* ------------------------------------------------------------------------------------ result -- */
@@ -187,6 +190,9 @@ static crease_status rank_regions(crease_context *context, crease_regions *regio
             regions->rms[r] = rms[from];
             regions->sizes[r] = ranks[r].size;
         }
+        for (size_t r = 0; r < count; r++)
+            for (int i = 0; i < regions->models[r].tangent_count; i++)
+                regions->models[r].tangent[i] = number[models[ranks[r].region].tangent[i]];
         for (size_t i = 0; i < regions->count; i++)
             if (regions->labels[i] >= 0)
                 regions->labels[i] = number[regions->labels[i]];
@@ -425,7 +431,9 @@ crease_region crease_regions_at(const crease_regions *regions, size_t index)
     crease_region region = {.type = model->type,
         .point_count = regions->sizes[index],
         .rms = regions->rms[index],
-        .chi = model->chi};
+        .chi = model->chi,
+        .tangent = {CREASE_NO_REGION, CREASE_NO_REGION}};
+    memcpy(region.tangent, model->tangent, (size_t)model->tangent_count * sizeof *model->tangent);
     if (model->type == CREASE_REGION_FREEFORM)
         return region;
     add_numbers(&region, model->centre, 3);

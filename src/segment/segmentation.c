@@ -115,8 +115,32 @@ crease_status crease_segmentation_list(crease_segmentation *seg)
     return CREASE_OK;
 }
 
+/* The number of a region when those without members are gone. */
+static int32_t number_after(const crease_segmentation *seg, int32_t region)
+{
+    int32_t number = 0;
+    for (int32_t r = 0; r < region; r++)
+        number += crease_segmentation_size(seg, (size_t)r) > 0;
+    return number;
+}
+
+/* Lets tangent models know the numbers to come. */
+static void renumber_tangents(crease_segmentation *seg)
+{
+    for (size_t r = 0; r < seg->region_count; r++) {
+        crease_model *const model = &seg->models[r];
+        for (int i = 0; i < model->tangent_count; i++) {
+            if (crease_segmentation_size(seg, (size_t)model->tangent[i]) == 0)
+                model->tangent_count = 0;
+            else
+                model->tangent[i] = number_after(seg, model->tangent[i]);
+        }
+    }
+}
+
 void crease_segmentation_compact(crease_segmentation *seg)
 {
+    renumber_tangents(seg);
     size_t kept = 0;
     for (size_t r = 0; r < seg->region_count; r++) {
         if (crease_segmentation_size(seg, r) == 0) {
