@@ -8,7 +8,7 @@
 #include "crease/crease_cad.h"
 #include "deviation.h"
 #include "input.h"
-#include "target.h"
+#include "outputs.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -129,43 +129,11 @@ static void describe(report *r, const comparison *c, size_t count)
 
 /* --------------------------------------------------------------------------------- writing -- */
 
-static crease_status write_seen(
-    crease_context *context, const settings *s, const comparison *c, const char *path)
+static crease_status show(crease_context *context, const void *from, bool page, crease_scene *scene)
 {
-    crease_scene *scene = NULL;
-    crease_figure_options figure = crease_figure_options_default();
-    figure.colour_by = "deviation";
-    crease_status status = crease_scene_create(context, target_name(s->inputs[0]), &scene);
-    if (status == CREASE_OK)
-        status = crease_scene_add_mesh(context, scene, "model", crease_cad_model_mesh(c->model));
-    if (status == CREASE_OK)
-        status = crease_scene_add_cloud(context, scene, "points", c->cloud);
-    if (status == CREASE_OK)
-        status = target_of(path, ALLOWED) == TARGET_PAGE
-            ? crease_page_write(context, scene, path)
-            : crease_figure_write(context, scene, &figure, path);
-    crease_scene_free(scene);
-    return status;
-}
-
-static crease_status write_outputs(
-    crease_context *context, const settings *s, report *r, const comparison *c)
-{
-    crease_status status = CREASE_OK;
-    for (size_t i = 0; i < s->output_count && status == CREASE_OK; i++) {
-        const char *path = s->outputs[i];
-        const target_kind kind = target_of(path, ALLOWED);
-        if (kind == TARGET_CLOUD)
-            status = crease_cloud_write(context, c->cloud, path);
-        else if (kind == TARGET_REPORT)
-            status = target_write_report(context, r, path);
-        else
-            status = write_seen(context, s, c, path);
-        if (status == CREASE_OK)
-            report_line(r, "wrote %s", path);
-    }
-    report_stage(r, "write");
-    return status == CREASE_OK ? target_write_report(context, r, s->report) : status;
+    (void)page;
+    const comparison *const c = from;
+    return crease_scene_add_mesh(context, scene, "model", crease_cad_model_mesh(c->model));
 }
 
 static crease_status compare(
@@ -185,7 +153,9 @@ static crease_status compare(
         return status;
     report_stage(r, "deviations");
     describe(r, c, count);
-    return write_outputs(context, s, r, c);
+    const outputs all = {
+        .allowed = ALLOWED, .from = c, .cloud = c->cloud, .colour_by = "deviation", .show = show};
+    return outputs_write(context, s, r, &all);
 }
 
 crease_status compare_run(crease_context *context, const settings *s, report *r)

@@ -5,7 +5,8 @@
 #include "cad.h"
 #include "command.h"
 #include "input.h"
-#include "target.h"
+#include "outputs.h"
+#include "region.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,8 +14,7 @@
 
 enum {
     ALLOWED = TARGET_CLOUD | TARGET_FIGURE | TARGET_PAGE | TARGET_REPORT,
-    CREASES = TARGET_LINES | TARGET_CAD,
-    TYPES = 6
+    CREASES = TARGET_LINES | TARGET_CAD
 };
 
 typedef struct result {
@@ -83,28 +83,20 @@ static crease_status find(
 
 static void describe_regions(report *r, const crease_regions *regions)
 {
-    static const char *const names[TYPES] = {
-        "planes", "spheres", "cylinders", "cones", "tori", "free_forms"};
-    static const char *const words[TYPES][2] = {{"plane", "planes"}, {"sphere", "spheres"},
-        {"cylinder", "cylinders"}, {"cone", "cones"}, {"torus", "tori"},
-        {"free form", "free forms"}};
-    size_t counts[TYPES] = {0}, outliers = 0, used = 0;
-    char text[160] = "";
+    region_counts counts = {0};
+    size_t outliers = 0;
+    char text[160];
     for (size_t i = 0; i < crease_regions_count(regions); i++)
-        counts[crease_regions_at(regions, i).type]++;
+        counts.of[crease_regions_at(regions, i).type]++;
     for (size_t i = 0; i < crease_regions_point_count(regions); i++)
         outliers += crease_regions_labels(regions)[i] < 0;
     cJSON *object = cJSON_AddObjectToObject(r->root, "regions");
     cJSON_AddNumberToObject(object, "count", (double)crease_regions_count(regions));
-    for (int i = 0; i < TYPES; i++) {
-        cJSON_AddNumberToObject(object, names[i], (double)counts[i]);
-        if (counts[i] > 0)
-            used += (size_t)snprintf(text + used, sizeof text - used, "%s%zu %s", used ? ", " : "",
-                counts[i], words[i][counts[i] > 1]);
-    }
+    region_counts_describe(object, &counts);
     cJSON_AddNumberToObject(object, "outliers", (double)outliers);
     cJSON_AddNumberToObject(r->root, "noise", crease_regions_sigma(regions));
-    report_line(r, "smooth regions: %s; outliers: %zu; noise %.2g", used ? text : "none", outliers,
+    region_counts_text(&counts, text, sizeof text);
+    report_line(r, "smooth regions: %s; outliers: %zu; noise %.2g", text, outliers,
         crease_regions_sigma(regions));
 }
 
@@ -201,29 +193,20 @@ static void describe_features(report *r, const settings *s, const result *all)
 
 /* --------------------------------------------------------------------------------- writing -- */
 
-static crease_status write_seen(
-    crease_context *context, const settings *s, const result *all, const char *path)
+static crease_status show(crease_context *context, const void *from, bool page, crease_scene *scene)
 {
-    crease_scene *scene = NULL;
-    crease_figure_options figure = crease_figure_options_default();
-    figure.colour_by = "region";
-    crease_status status = crease_scene_create(context, target_name(s->inputs[0]), &scene);
-    if (status == CREASE_OK)
-        status = crease_scene_add_cloud(context, scene, "points", all->cloud);
-    if (status == CREASE_OK && crease_network_count(all->network) > 0)
-        status = crease_scene_add_curves(context, scene, "creases",
-            crease_network_curves(all->network), crease_network_count(all->network));
-    if (status == CREASE_OK)
-        status = target_of(path, ALLOWED) == TARGET_PAGE
-            ? crease_page_write(context, scene, path)
-            : crease_figure_write(context, scene, &figure, path);
-    crease_scene_free(scene);
-    return status;
+    (void)page;
+    const result *const all = from;
+    const size_t count = crease_network_count(all->network);
+    return count == 0 ? CREASE_OK
+                      : crease_scene_add_curves(
+                            context, scene, "creases", crease_network_curves(all->network), count);
 }
 
 static crease_status write_creases(
-    crease_context *context, report *r, const crease_network *network, const char *path)
+    crease_context *context, report *r, const void *from, const char *path)
 {
+    const crease_network *const network = ((const result *)from)->network;
     if (target_of(path, CREASES) == TARGET_CAD)
         return cad_write_creases(
             context, r, crease_network_curves(network), crease_network_count(network), path);
@@ -236,23 +219,13 @@ static crease_status write_creases(
 static crease_status write_outputs(
     crease_context *context, const settings *s, report *r, const result *all)
 {
-    crease_status status = CREASE_OK;
-    for (size_t i = 0; i < s->output_count && status == CREASE_OK; i++) {
-        const char *path = s->outputs[i];
-        const target_kind kind = target_of(path, ALLOWED);
-        if (kind == TARGET_CLOUD)
-            status = crease_cloud_write(context, all->cloud, path);
-        else if (kind == TARGET_REPORT)
-            status = target_write_report(context, r, path);
-        else
-            status = write_seen(context, s, all, path);
-        if (status == CREASE_OK)
-            report_line(r, "wrote %s", path);
-    }
-    if (status == CREASE_OK && s->creases)
-        status = write_creases(context, r, all->network, s->creases);
-    report_stage(r, "write");
-    return status == CREASE_OK ? target_write_report(context, r, s->report) : status;
+    const outputs made = {.allowed = ALLOWED,
+        .from = all,
+        .cloud = all->cloud,
+        .colour_by = "region",
+        .show = show,
+        .creases = write_creases};
+    return outputs_write(context, s, r, &made);
 }
 
 crease_status detect_run(crease_context *context, const settings *s, report *r)

@@ -37,22 +37,33 @@ static crease_status make_panel(crease_context *context, const settings *s, crea
     return crease_shape_panel(context, &options, out);
 }
 
+static crease_status make_bracket(crease_context *context, const settings *s, crease_cloud **out)
+{
+    crease_bracket_options options = crease_bracket_options_default();
+    if (s->noise >= 0)
+        options.noise = s->noise;
+    if (s->count)
+        options.count = (size_t)s->count;
+    return crease_shape_bracket(context, &options, out);
+}
+
 static const struct {
     const char *name;
     crease_status (*make)(crease_context *, const settings *, crease_cloud **);
-} examples[] = {{"cube", make_cube}, {"sample", make_sample}, {"panel", make_panel}};
+} examples[] = {
+    {"cube", make_cube}, {"sample", make_sample}, {"panel", make_panel}, {"bracket", make_bracket}};
 
 static crease_status make(crease_context *context, const settings *s, crease_cloud **out)
 {
     const char *name = NULL;
-    const crease_status status = input_path(context, s, "cube, sample or panel", &name);
+    const crease_status status = input_path(context, s, "cube, sample, panel or bracket", &name);
     if (status != CREASE_OK)
         return status;
     for (size_t i = 0; i < sizeof examples / sizeof examples[0]; i++)
         if (strcmp(examples[i].name, name) == 0)
             return examples[i].make(context, s, out);
     return crease_context_fail(context, CREASE_ERROR_ARGUMENT,
-        "there is no example '%s'; it is cube, sample or panel", name);
+        "there is no example '%s'; it is cube, sample, panel or bracket", name);
 }
 
 crease_status example_run(crease_context *context, const settings *s, report *r)

@@ -28,14 +28,16 @@ const command commands[] = {
         "`region` (number of the smooth region, -1 for outliers), all points in their order; .png "
         ".svg .pdf a figure; .html a page to turn and pick points in; .json the report.",
         detect_run},
-    {"fit", FOR_FIT, "fit CLOUD -o FILE [OPTIONS]", "fit a surface that keeps its sharp edges",
-        "Fits a bicubic B-spline surface to a cloud that is a height field in some direction, "
-        "sharp along the edges that the data show.\n\n"
+    {"fit", FOR_FIT, "fit CLOUD -o FILE [OPTIONS]",
+        "turn a cloud into a CAD model, edges kept sharp",
+        "Turns the cloud of a whole part into a solid: a face on the surface of every smooth "
+        "region, edges where they meet, closed where the points allow. Fits one bicubic B-spline "
+        "sheet, sharp along the edges that the data show, to a cloud in which no surface lies over "
+        "another. Nothing needs to be set.\n\n"
         "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL or OFF file; - is standard input.\n"
-        "What FILE gets depends on its extension: .step .stp .iges .igs .brep the CAD model, one "
-        "face for each "
-        "smooth piece; .obj .stl .ply .glb a mesh; .png .svg .pdf a figure; .html a page to turn "
-        "and pick points in; .json the report.",
+        "What FILE gets depends on its extension: .step .stp .iges .igs .brep the CAD model; .obj "
+        ".stl .ply .glb a mesh; .png .svg .pdf a figure; .html a page to turn and pick points in; "
+        ".json the report.",
         fit_run},
     {"compare", FOR_COMPARE, "compare MODEL CLOUD [-o FILE] [OPTIONS]",
         "tell how far a cloud is from a CAD model",
@@ -52,10 +54,11 @@ const command commands[] = {
         "Reads a cloud (PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL, OFF) or a CAD model (STEP, "
         "IGES, BREP) and tells what it holds.",
         info_run},
-    {"example", FOR_EXAMPLE, "example cube|sample|panel -o FILE [OPTIONS]",
+    {"example", FOR_EXAMPLE, "example cube|sample|panel|bracket -o FILE [OPTIONS]",
         "make a cloud to try the others on",
         "Makes a cloud: the paper's cube (6146 points), the paper's sample of 51 points at one "
-        "edge, or a scanned panel with noise, outliers and an edge along no axis.\n\n"
+        "edge, a scanned panel with noise, outliers and an edge along no axis, or a bracket "
+        "scanned from all around.\n\n"
         "FILE is .ply .xyz .txt .csv .asc or .pts.",
         example_run},
     {"reproduce", FOR_REPRODUCE, "reproduce -o FOLDER [OPTIONS]",

@@ -10,7 +10,8 @@
 
 #define AT(member) offsetof(settings, member)
 
-static const char *const method_names[] = {"sheet", "averaging", NULL};
+const char *const fit_method_names[] = {"automatic", "part", "sheet", "averaging", NULL};
+static const char *const face_names[] = {"analytic", "bspline", NULL};
 static const char *const detector_names[] = {
     "bootstrap", "jackknife", "variation", "gauss-map", NULL};
 static const char *const feature_names[] = {"creases", "score", NULL};
@@ -30,11 +31,16 @@ const option option_table[] = {
         "not written"},
     {"report", 0, OPTION_PATH, "FILE", FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_FILTER, AT(report),
         0, 0, NULL, "write the report as JSON", "not written"},
-    {"method", 'm', OPTION_CHOICE, "NAME", FOR_FIT, AT(method), 0, 0, method_names,
-        "`sheet`: creases are knot lines placed where the data show them; `averaging`: the paper's "
-        "Algorithm 1",
+    {"method", 'm', OPTION_CHOICE, "NAME", FOR_FIT, AT(method), 0, 0, fit_method_names,
+        "`part`: a face for every smooth region, closed to a solid where the points allow; "
+        "`sheet`: one surface whose creases are knot lines; `averaging`: the paper's Algorithm 1; "
+        "`automatic`: a sheet where no surface lies over another, else a part",
         NULL},
-    {"sigma", 0, OPTION_REAL, "S", FOR_DETECT | FOR_FILTER, AT(sigma), 0, 1e150, NULL,
+    {"faces", 0, OPTION_CHOICE, "KIND", FOR_FIT, AT(faces), 0, 0, face_names,
+        "part: planes, cylinders, cones, spheres and tori as what they are, or every face as a "
+        "B-spline surface",
+        NULL},
+    {"sigma", 0, OPTION_REAL, "S", FOR_DETECT | FOR_FIT | FOR_FILTER, AT(sigma), 0, 1e150, NULL,
         "noise of the points along the normal, when it is known: a length; each point is then "
         "taken to err by itself",
         "0: estimated"},
@@ -95,11 +101,12 @@ const option option_table[] = {
         "sheet: refine until the rms deviation is below this length",
         "0: until only noise is left"},
     {"noise", 0, OPTION_REAL, "D", FOR_EXAMPLE, AT(noise), 0, 100, NULL,
-        "standard deviation of the noise in spacings: of the panel's points, or of the 13 moved "
-        "points of the sample",
-        "0.2 for the panel, none for the others"},
+        "standard deviation of the noise in spacings: of the panel's or the bracket's points, or "
+        "of "
+        "the 13 moved points of the sample",
+        "0.2 for panel and bracket, none for the others"},
     {"count", 0, OPTION_INTEGER, "N", FOR_EXAMPLE, AT(count), 4, 100000000, NULL,
-        "points of the panel", "20000"},
+        "points of the panel or the bracket", "20000 or 30000"},
     {"seeds", 0, OPTION_INTEGER, "N", FOR_REPRODUCE, AT(seeds), 1, 100000, NULL,
         "random repetitions for each noise level", NULL},
     {"skip-invalid", 0, OPTION_FLAG, NULL,

@@ -50,6 +50,8 @@ typedef struct option {
 /** The table and its length. */
 extern const option option_table[];
 extern const size_t option_count;
+/* The names of fit_method, in its order. */
+extern const char *const fit_method_names[];
 
 /** Reads the arguments after the command's name into s. On failure prints one sentence to stderr
  * and returns false. */

@@ -17,7 +17,7 @@ settings settings_default(void)
         .features = FEATURES_CREASES,
         .regions = crease_regions_options_default(),
         .filter = crease_filter_options_default(),
-        .method = METHOD_SHEET,
+        .method = METHOD_AUTOMATIC,
         .averaging = crease_averaging_options_default(),
         .sheet = crease_sheet_options_default(),
         .orientation = CREASE_ORIENTATION_AUTOMATIC,

@@ -13,7 +13,14 @@
 
 enum { MOST_OUTPUTS = 16, MOST_INPUTS = 2 };
 
-typedef enum fit_method { METHOD_SHEET, METHOD_AVERAGING } fit_method;
+typedef enum fit_method {
+    METHOD_AUTOMATIC,
+    METHOD_PART,
+    METHOD_SHEET,
+    METHOD_AVERAGING
+} fit_method;
+
+typedef enum face_kind { FACES_ANALYTIC, FACES_BSPLINE } face_kind;
 
 /* What the field `feature` comes from. */
 typedef enum feature_source { FEATURES_CREASES, FEATURES_SCORE } feature_source;
@@ -42,6 +49,7 @@ typedef struct settings {
     crease_filter_options filter;
     double sigma; /* for the regions and the filter */
     int method;   /* fit_method */
+    int faces;    /* face_kind */
     crease_averaging_options averaging;
     crease_sheet_options sheet;
     int orientation; /* crease_orientation, shared by both methods */

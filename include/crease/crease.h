@@ -214,6 +214,20 @@ CREASE_API crease_panel_options crease_panel_options_default(void);
 CREASE_API crease_status crease_shape_panel(
     crease_context *context, const crease_panel_options *options, crease_cloud **out);
 
+/** A bracket of 80 x 50 x 55, as a scanner would see it: an angle with three drilled holes, eight
+ * planes and three cylinders, seen from eight sides, with the density that each side gets, noise
+ * along the line of sight, and outliers. What no line of sight reaches has no points. */
+typedef struct crease_bracket_options {
+    size_t count;    /**< points, at least 4; default 30000 */
+    double noise;    /**< standard deviation in mean spacings; default 0.2 */
+    double outliers; /**< share of the points that lie off the bracket, 0..1; default 0.005 */
+} crease_bracket_options;
+
+CREASE_API crease_bracket_options crease_bracket_options_default(void);
+/** Errors: ARGUMENT, NO_MEMORY. */
+CREASE_API crease_status crease_shape_bracket(
+    crease_context *context, const crease_bracket_options *options, crease_cloud **out);
+
 /* -------------------------------------------------------------------------- reading clouds -- */
 
 typedef struct crease_read_options {
@@ -627,6 +641,12 @@ typedef struct crease_sheet_options {
 } crease_sheet_options;
 
 CREASE_API crease_sheet_options crease_sheet_options_default(void);
+/** Tells whether one sheet can follow the cloud: whether its points, seen along the z that
+ * crease_sheet_fit() would choose, are nearly nowhere one above the other. A part seen from all
+ * around is none. O(n log n). Errors: TOO_FEW_POINTS (below 4), DEGENERATE (all points on one
+ * line), NO_MEMORY, CANCELLED. */
+CREASE_API crease_status crease_sheet_suits(
+    crease_context *context, const crease_cloud *cloud, bool *suits);
 /** Errors: ARGUMENT, TOO_FEW_POINTS, DEGENERATE, NUMERIC, NO_MEMORY, CANCELLED. */
 CREASE_API crease_status crease_sheet_fit(crease_context *context, const crease_cloud *cloud,
     const crease_sheet_options *options, crease_sheet **out);

@@ -23,4 +23,7 @@ crease_roof crease_shape_sample_truth(const crease_sample_options *options);
  * noise: across -0.4..0.4, the crease being at 0; along -0.3..0.3. */
 void crease_shape_panel_point(double across, double along, double point[3]);
 
+/* Whether a place lies inside the bracket of crease_shape_bracket(). */
+bool crease_shape_bracket_holds(const double place[3]);
+
 #endif

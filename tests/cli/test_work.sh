@@ -130,16 +130,52 @@ expect 0 "51 points" info s_on.ply
 check "the report is whole" python3 -c '
 import json
 r = json.load(open("s.json"))
-assert r["program"] == "crease" and r["cloud"]["points"] == 51 and r["faces"] == 2
+assert r["program"] == "crease" and r["cloud"]["points"] == 51 and r["face_count"] == 2
 assert abs(r["creases"][0]["angle"] - 90) < 0.5, r["creases"]
 assert r["deviation"]["rms"] < 1e-3 / 32
-assert r["options"]["seed"] == "1" and r["options"]["method"] == "sheet"
+assert r["options"]["seed"] == "1" and r["method"] == "sheet" and r["options"]["method"] == "automatic"
 u = r["surface"]["u"]["knots"]
 assert max(u.count(k) for k in u[4:-4]) == 3, u
 assert r["seconds"]["total"] > 0'
 
+expect 0 "0 creases" fit sample.ply --most-creases 0 -o smooth.png -o smooth.html
 expect 0 "no room for a crease" fit sample.ply --net 6x6 -o small.step
 expect 0 "1 creases" fit sample.ply --net 7x4 -o small.step
+
+# --- fit, part: what lies over itself is closed to a solid
+expect 0 "a closed, valid solid, volume 1" fit cube.ply -o p.step -o p.igs -o p.brep -o p.obj -o p.stl -o p.ply \
+    -o p.glb -o p.png -o p.svg -o p.html --creases p_creases.ply --points p_on.ply --report p.json
+for file in p.obj p.stl p.ply p.glb p.png p.svg p.html p_creases.ply; do
+    check "$file is there" test -s $file
+done
+for file in p.step p.brep; do
+    expect 0 "1 solids, 1 shells (1 closed), 6 faces, 12 edges, 8 vertices" info $file
+    expect 0 "0 free, 12 sharp" info $file
+    expect 0 "volume 1," info $file
+done
+expect 0 "6 faces" info p.igs
+check "the report tells six planes and twelve right angles" python3 -c '
+import json
+r = json.load(open("p.json"))
+assert r["method"] == "part" and r["part"]["state"] == "solid" and abs(r["part"]["volume"] - 1) < 1e-6
+assert len(r["faces"]) == 6 and len(r["edges"]) == 12
+for f in r["faces"]:
+    assert f["type"] == "plane" and abs(f["area"] - 1) < 1e-6 and f["points"] > 900 and f["max"] < 1e-6, f
+    assert len(f["normal"]) == len(f["place"]) == 3
+for e in r["edges"]:
+    assert abs(e["length"] - 1) < 1e-6 and abs(e["angle"] - 90) < 1e-4 and not e["smooth"], e
+assert {"regions", "creases", "part", "write"} <= set(r["seconds"])'
+expect 0 "field deviation: " info p_on.ply
+expect 0 "field face: 0 to 5" info p_on.ply
+expect 0 "6 faces" fit cube.ply --faces bspline -o pb.step
+expect 0 "6 B-spline, 0 plane, 0 other" info pb.step
+expect 0 "1 solids" info pb.step
+expect 0 "control points" fit cube.ply --method sheet -o forced.step
+expect 2 "analytic or bspline" fit cube.ply --faces round
+expect 0 "30000 points" example bracket -o bracket.ply
+expect 0 "11 faces: 8 planes, 3 cylinders" fit bracket.ply -o bracket.step
+expect 0 "1 solids, 1 shells (1 closed), 11 faces" info bracket.step
+expect 0 "11 faces, 0 of them without a point" compare bracket.step bracket.ply
 
 # --- fit, the paper's algorithm: rows 3 and 4 are repeated, a flat-topped ridge
 expect 0 "control points" fit sample.ply --method averaging -o a.step --report a.json

@@ -3,6 +3,7 @@
 
 #include "given.h"
 
+#include "base/random.h"
 #include "cloud/shape.h"
 
 static int by_coordinates(const void *a, const void *b)
@@ -143,6 +144,57 @@ static void given_a_panel_without_noise_then_points_keep_to_its_surface(void **s
     crease_context_free(context);
 }
 
+static void given_a_bracket_without_noise_then_points_lie_on_its_surface(void **state)
+{
+    crease_context *context = given_context();
+    const crease_bracket_options options = {.count = 5000};
+    crease_cloud *cloud = NULL;
+    assert_int_equal(crease_shape_bracket(context, &options, &cloud), CREASE_OK);
+    assert_int_equal(crease_cloud_count(cloud), 5000);
+    for (size_t i = 0; i < 5000; i++) {
+        bool inside = false, outside = false;
+        for (uint64_t k = 0; k < 64; k++) {
+            double near[3];
+            for (uint64_t c = 0; c < 3; c++)
+                near[c] = crease_cloud_points(cloud)[3 * i + c] +
+                    1e-6 * (crease_random_uniform(9, i, 3 * k + c) - 0.5);
+            inside = inside || crease_shape_bracket_holds(near);
+            outside = outside || !crease_shape_bracket_holds(near);
+        }
+        assert_true(inside && outside);
+    }
+    crease_cloud_free(cloud);
+    crease_context_free(context);
+}
+
+static void given_a_bracket_then_noise_and_outliers_are_what_was_asked_for(void **state)
+{
+    crease_context *context = given_context();
+    crease_bracket_options options = crease_bracket_options_default();
+    crease_cloud *clean = NULL, *noisy = NULL;
+    options.outliers = 0.1;
+    assert_int_equal(crease_shape_bracket(context, &options, &noisy), CREASE_OK);
+    options.outliers = options.noise = 0;
+    assert_int_equal(crease_shape_bracket(context, &options, &clean), CREASE_OK);
+    const double sigma = 0.2 * sqrt(18650.0 / 30000);
+    double square = 0;
+    size_t kept = 0;
+    for (size_t i = 0; i < 30000; i++) {
+        double off = 0;
+        for (size_t c = 3 * i; c < 3 * i + 3; c++)
+            off += pow(crease_cloud_points(noisy)[c] - crease_cloud_points(clean)[c], 2);
+        if (off < 25 * sigma * sigma) {
+            square += off;
+            kept++;
+        }
+    }
+    assert_near((double)kept / 30000, 0.9, 0.01);
+    assert_near(sqrt(square / (double)kept) / sigma, 1.0, 0.05);
+    crease_cloud_free(clean);
+    crease_cloud_free(noisy);
+    crease_context_free(context);
+}
+
 static void given_senseless_options_then_an_error_says_what_to_give(void **state)
 {
     crease_context *context = given_context();
@@ -178,6 +230,9 @@ static void given_no_memory_then_shapes_fail_cleanly(void **state)
         crease_context_fail_allocation(context, n < 3 ? n : 2);
         status = crease_shape_panel(context, NULL, &cloud);
         assert_int_equal(status, CREASE_ERROR_NO_MEMORY);
+        crease_context_fail_allocation(context, n < 3 ? n : 2);
+        status = crease_shape_bracket(context, NULL, &cloud);
+        assert_int_equal(status, CREASE_ERROR_NO_MEMORY);
     }
     crease_context_free(context);
 }
@@ -191,6 +246,8 @@ int main(void)
         cmocka_unit_test(given_noise_then_only_the_moved_points_move_and_only_along_z),
         cmocka_unit_test(given_a_shift_then_the_edge_moves_within_the_points),
         cmocka_unit_test(given_a_panel_without_noise_then_points_keep_to_its_surface),
+        cmocka_unit_test(given_a_bracket_without_noise_then_points_lie_on_its_surface),
+        cmocka_unit_test(given_a_bracket_then_noise_and_outliers_are_what_was_asked_for),
         cmocka_unit_test(given_senseless_options_then_an_error_says_what_to_give),
         cmocka_unit_test(given_no_memory_then_shapes_fail_cleanly),
     };

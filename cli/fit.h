@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* The two ways to fit. */
+#ifndef CREASE_CLI_FIT_H
+#define CREASE_CLI_FIT_H
+
+#include "report.h"
+#include "settings.h"
+#include "target.h"
+
+enum {
+    FIT_ALLOWED = TARGET_CAD | TARGET_MESH | TARGET_FIGURE | TARGET_PAGE | TARGET_REPORT,
+    FIT_CREASES = TARGET_LINES | TARGET_CAD
+};
+
+/** Fits one sheet, by either of its methods, and writes what is asked for. */
+crease_status fit_sheet(
+    crease_context *context, const settings *s, report *r, const crease_cloud *cloud);
+/** Builds a part from its smooth regions and writes what is asked for. */
+crease_status fit_part(
+    crease_context *context, const settings *s, report *r, const crease_cloud *cloud);
+
+#endif

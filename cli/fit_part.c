@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* crease fit, a whole part: a face for every smooth region, edges where they meet. */
+#include "fit.h"
+
+#ifdef CREASE_HAVE_CAD
+#include "cad.h"
+#include "crease/crease_cad.h"
+#include "deviation.h"
+#include "outputs.h"
+#include "region.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* What the fit has brought: everything that is written. */
+typedef struct result {
+    crease_regions *regions;
+    crease_network *network;
+    crease_part *part;
+    const crease_curve **sharp; /* curves of the edges that are creases */
+    size_t sharp_count;
+    crease_cloud *cloud;     /* the input with deviation and face */
+    crease_cloud *projected; /* the same on the part */
+} result;
+
+static void result_free(result *all)
+{
+    free(all->sharp);
+    crease_cloud_free(all->projected);
+    crease_cloud_free(all->cloud);
+    crease_part_free(all->part);
+    crease_network_free(all->network);
+    crease_regions_free(all->regions);
+}
+
+static crease_status no_memory(crease_context *context, size_t count)
+{
+    return crease_context_fail(context, CREASE_ERROR_NO_MEMORY,
+        "memory ran out: %zu numbers are not to be had; use fewer points", count);
+}
+
+/* ---------------------------------------------------------------------------------- fitting -- */
+
+static crease_status project(
+    crease_context *context, const crease_cloud *cloud, const crease_cloud_parts *like, result *all)
+{
+    const size_t count = crease_cloud_count(cloud);
+    crease_mesh_foot *feet = calloc(count ? count : 1, sizeof *feet);
+    double *places = calloc(count ? count : 1, 3 * sizeof *places);
+    crease_status status = feet && places
+        ? crease_mesh_project(
+              context, crease_part_mesh(all->part), crease_cloud_points(cloud), count, feet)
+        : no_memory(context, 3 * count);
+    for (size_t i = 0; i < count && status == CREASE_OK; i++)
+        memcpy(places + 3 * i, feet[i].point, sizeof feet[i].point);
+    crease_cloud_parts parts = *like;
+    parts.points = places;
+    if (status == CREASE_OK)
+        status = crease_cloud_create(context, &parts, &all->projected);
+    free(places);
+    free(feet);
+    return status;
+}
+
+static crease_status make_clouds(
+    crease_context *context, const settings *s, const crease_cloud *cloud, result *all)
+{
+    const crease_field fields[] = {
+        {"deviation", CREASE_TYPE_FLOAT64, crease_part_deviations(all->part)},
+        {"face", CREASE_TYPE_INT32, crease_part_nearest_faces(all->part)},
+    };
+    const crease_cloud_parts parts = {.count = crease_cloud_count(cloud),
+        .fields = fields,
+        .field_count = 2,
+        .coordinate_type = CREASE_TYPE_FLOAT64};
+    const crease_status status = crease_cloud_with_fields(context, cloud, fields, 2, &all->cloud);
+    return status == CREASE_OK && s->points ? project(context, cloud, &parts, all) : status;
+}
+
+/* Creases are the edges of two faces that meet at an angle. */
+static crease_status pick_sharp(crease_context *context, result *all)
+{
+    const size_t count = crease_part_edge_count(all->part);
+    all->sharp = calloc(count ? count : 1, sizeof *all->sharp);
+    if (!all->sharp)
+        return no_memory(context, count);
+    for (size_t i = 0; i < count; i++) {
+        const crease_part_edge edge = crease_part_edge_at(all->part, i);
+        if (!edge.smooth && edge.faces[0] != edge.faces[1] && edge.faces[1] != UINT32_MAX)
+            all->sharp[all->sharp_count++] = crease_part_curves(all->part)[i];
+    }
+    return CREASE_OK;
+}
+
+static crease_status build(
+    crease_context *context, const settings *s, report *r, const crease_cloud *cloud, result *all)
+{
+    crease_part_options options = crease_part_options_default();
+    options.bspline_faces = s->faces == FACES_BSPLINE;
+    crease_status status = crease_regions_find(context, cloud, &s->regions, &all->regions);
+    if (status != CREASE_OK)
+        return status;
+    report_stage(r, "regions");
+    status = crease_network_find(context, all->regions, NULL, &all->network);
+    if (status != CREASE_OK)
+        return status;
+    report_stage(r, "creases");
+    status = crease_part_build(context, cloud, all->regions, all->network, &options, &all->part);
+    if (status == CREASE_OK)
+        status = make_clouds(context, s, cloud, all);
+    if (status == CREASE_OK)
+        status = pick_sharp(context, all);
+    report_stage(r, "part");
+    return status;
+}
+
+/* --------------------------------------------------------------------------------- telling -- */
+
+static cJSON *face_object(const result *all, size_t index)
+{
+    const crease_part_face face = crease_part_face_at(all->part, index);
+    const crease_region region = crease_regions_at(all->regions, face.region);
+    const deviation_summary d = {face.mean, face.rms, face.p95, face.most};
+    cJSON *object = cJSON_CreateObject();
+    cJSON_AddNumberToObject(object, "region", face.region);
+    region_describe(object, &region);
+    cJSON_AddNumberToObject(object, "area", face.area);
+    cJSON_AddNumberToObject(object, "points", (double)face.point_count);
+    deviation_describe(object, d);
+    return object;
+}
+
+static cJSON *edge_object(const result *all, size_t index)
+{
+    const crease_part_edge edge = crease_part_edge_at(all->part, index);
+    cJSON *object = cJSON_CreateObject();
+    cJSON *faces = cJSON_AddArrayToObject(object, "faces");
+    cJSON_AddItemToArray(faces, cJSON_CreateNumber(edge.faces[0]));
+    if (edge.faces[1] != UINT32_MAX)
+        cJSON_AddItemToArray(faces, cJSON_CreateNumber(edge.faces[1]));
+    cJSON_AddBoolToObject(object, "smooth", edge.smooth);
+    cJSON_AddNumberToObject(object, "length", edge.length);
+    cJSON_AddNumberToObject(object, "angle", edge.angle);
+    return object;
+}
+
+static void describe_lists(report *r, const result *all)
+{
+    cJSON *faces = cJSON_AddArrayToObject(r->root, "faces");
+    for (size_t i = 0; i < crease_part_face_count(all->part); i++)
+        cJSON_AddItemToArray(faces, face_object(all, i));
+    cJSON *edges = cJSON_AddArrayToObject(r->root, "edges");
+    for (size_t i = 0; i < crease_part_edge_count(all->part); i++)
+        cJSON_AddItemToArray(edges, edge_object(all, i));
+}
+
+static void describe_kinds(report *r, const result *all)
+{
+    region_counts counts = {0};
+    char text[160];
+    for (size_t i = 0; i < crease_part_face_count(all->part); i++)
+        counts.of[crease_regions_at(all->regions, crease_part_face_at(all->part, i).region).type]++;
+    region_counts_text(&counts, text, sizeof text);
+    report_line(r, "%zu faces: %s; %zu edges, %zu of them sharp", crease_part_face_count(all->part),
+        text, crease_part_edge_count(all->part), all->sharp_count);
+}
+
+static void describe(report *r, const result *all)
+{
+    static const char *const states[] = {"solid", "shell", "faces"};
+    static const char *const words[] = {
+        "a closed, valid solid", "an open shell", "faces that do not all join"};
+    const crease_part_state state = crease_part_state_of(all->part);
+    const char *why = crease_part_message(all->part);
+    const double volume = crease_part_volume(all->part);
+    const deviation_summary d =
+        deviation_summarise(crease_part_deviations(all->part), crease_cloud_count(all->cloud));
+    cJSON *object = cJSON_AddObjectToObject(r->root, "part");
+    cJSON_AddStringToObject(object, "state", states[state]);
+    cJSON_AddStringToObject(object, "why", why);
+    cJSON_AddNumberToObject(object, "volume", volume);
+    cJSON_AddNumberToObject(r->root, "noise", crease_regions_sigma(all->regions));
+    deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
+    describe_lists(r, all);
+    if (state == CREASE_PART_SOLID)
+        report_line(r, "%s, volume %.6g", words[state], volume);
+    else
+        report_line(r, "%s: %s", words[state], why);
+    describe_kinds(r, all);
+    report_line(r, "deviation: rms %.4g, 95 %% below %.4g, max %.4g; noise %.2g", d.rms, d.p95,
+        d.most, crease_regions_sigma(all->regions));
+}
+
+/* --------------------------------------------------------------------------------- writing -- */
+
+static crease_status show(crease_context *context, const void *from, bool page, crease_scene *scene)
+{
+    (void)page;
+    const result *const all = from;
+    const crease_status status =
+        crease_scene_add_mesh(context, scene, "faces", crease_part_mesh(all->part));
+    return status != CREASE_OK || all->sharp_count == 0
+        ? status
+        : crease_scene_add_curves(context, scene, "creases", all->sharp, all->sharp_count);
+}
+
+static crease_status write_cad(crease_context *context, const void *from, const char *path)
+{
+    return crease_part_write(context, ((const result *)from)->part, path);
+}
+
+static crease_status write_mesh(crease_context *context, const void *from, const char *path)
+{
+    return crease_mesh_write(context, crease_part_mesh(((const result *)from)->part), path);
+}
+
+static crease_status write_creases(
+    crease_context *context, report *r, const void *from, const char *path)
+{
+    const result *const all = from;
+    if (target_of(path, FIT_CREASES) == TARGET_CAD)
+        return cad_write_creases(context, r, all->sharp, all->sharp_count, path);
+    return crease_curves_write(context, all->sharp, all->sharp_count, 0.0, path);
+}
+
+static crease_status write_outputs(
+    crease_context *context, const settings *s, report *r, const result *all)
+{
+    const outputs made = {.allowed = FIT_ALLOWED,
+        .from = all,
+        .cloud = all->cloud,
+        .colour_by = "deviation",
+        .show = show,
+        .cad = write_cad,
+        .mesh = write_mesh,
+        .creases = write_creases,
+        .points = all->projected};
+    return outputs_write(context, s, r, &made);
+}
+
+crease_status fit_part(
+    crease_context *context, const settings *s, report *r, const crease_cloud *cloud)
+{
+    result all = {0};
+    crease_status status = build(context, s, r, cloud, &all);
+    if (status == CREASE_OK) {
+        describe(r, &all);
+        status = write_outputs(context, s, r, &all);
+    }
+    result_free(&all);
+    return status;
+}
+#else
+crease_status fit_part(
+    crease_context *context, const settings *s, report *r, const crease_cloud *cloud)
+{
+    (void)r, (void)cloud;
+    return crease_context_fail(context, CREASE_ERROR_UNSUPPORTED,
+        "%s: this build joins no faces to a part; build with OpenCASCADE (CREASE_CAD=ON), or fit "
+        "a sheet (--method sheet)",
+        s->inputs[0]);
+}
+#endif
