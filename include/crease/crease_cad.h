@@ -123,8 +123,8 @@ CREASE_API crease_part_options crease_part_options_default(void);
  * cells is the part. Fillets between planes are recognised and rolled along the edges that they
  * replace. Nothing passes for a solid unless OpenCASCADE finds it valid and closed and the points
  * lie on it: otherwise the faces that the points support become an open shell, or at last faces
- * side by side; never nothing. OpenCASCADE's work is done in processes of their own (fork), each of
- * which may take 20 seconds of the processor. Not for several threads at the same time.
+ * side by side; never nothing. OpenCASCADE's work is done in processes of their own (fork), which
+ * may take 20 seconds of the processor. Not for several threads at the same time.
  * regions: of this cloud; network: of these regions, or NULL; options may be NULL.
  * Errors: ARGUMENT (the regions are not of this cloud), NO_MEMORY, NUMERIC (not even faces come
  * out), CANCELLED (such a process was interrupted). */
@@ -145,7 +145,7 @@ CREASE_API size_t crease_part_edge_count(const crease_part *part);
 CREASE_API crease_part_edge crease_part_edge_at(const crease_part *part, size_t index);
 /** A cubic curve for each edge, in their order, within a millionth of the edge's size or so. */
 CREASE_API const crease_curve *const *crease_part_curves(const crease_part *part);
-/** Triangles within 1/100000 of the diagonal of the faces; their owners are the numbers of the
+/** Triangles within 1/10000 of the diagonal of the faces; their owners are the numbers of the
  * faces. */
 CREASE_API const crease_mesh *crease_part_mesh(const crease_part *part);
 /** Signed distance of every point of the cloud from the part, positive outside; on open shells

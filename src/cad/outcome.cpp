@@ -28,6 +28,7 @@
 namespace crease_cad
 {
 
+static constexpr double MESH_TOLERANCE = 1e-4; /* of the diagonal */
 static constexpr double INTEGRAL_ERROR = 1e-7; /* relative, of areas and volumes */
 
 static std::vector<char> bytes_of(const TopoDS_Shape &shape)
@@ -137,7 +138,7 @@ Outcome measure(const Job &job, const Attempt &attempt, bool as_bsplines)
     const TopoDS_Shape &inside = attempt.shape;
     Outcome out = {};
     out.why = attempt.why;
-    out.triangles = tessellate(inside, 0.0);
+    out.triangles = tessellate(inside, MESH_TOLERANCE * job.diagonal);
     out.faces = facts_of_faces(job, inside, out.triangles);
     const double scale = job.outward.ScaleFactor();
     for (FaceFact &face : out.faces)

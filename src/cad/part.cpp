@@ -13,6 +13,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <sys/resource.h>
 
 struct crease_part {
     ~crease_part();
@@ -33,10 +34,10 @@ crease_part::~crease_part()
 namespace crease_cad
 {
 
-static constexpr Bounds BOUNDS = {20,
-    "OpenCASCADE took longer than 20 seconds to intersect the surfaces",
-    "OpenCASCADE broke down over the surfaces", "cancelled before it was built"};
-static constexpr double GOOD_LOSS = 0.04; /* of a solid: no other way is tried */
+/* Seconds of the processor: for all attempts at a solid, and for each other one. */
+static constexpr double SOLID_SECONDS = 20.0, SHELL_SECONDS = 10.0;
+static constexpr double LEAST_SECONDS = 4.0; /* with fewer left no attempt is begun */
+static constexpr double GOOD_LOSS = 0.04;    /* of a solid: no other way is tried */
 
 /* A way with its margin: the larger of a part of the diagonal and some spacings. */
 struct Step {
@@ -60,9 +61,31 @@ struct Search {
     const crease_cloud *cloud;
     const Job &job;
     bool as_bsplines;
+    double began; /* see seconds_apart() */
     std::optional<Judged> best;
     std::string why_no_solid;
 };
+
+/* Seconds of the processor that processes apart have taken so far. */
+static double seconds_apart()
+{
+    rusage usage = {};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    const timeval &user = usage.ru_utime, &system = usage.ru_stime;
+    return (double)(user.tv_sec + system.tv_sec) + 1e-6 * (double)(user.tv_usec + system.tv_usec);
+}
+
+static double seconds_for(const Search &search, const Step &step)
+{
+    return step.for_solid ? SOLID_SECONDS - (seconds_apart() - search.began) : SHELL_SECONDS;
+}
+
+static Bounds bounds_for(const Search &search, const Step &step)
+{
+    return {(unsigned)std::ceil(seconds_for(search, step)),
+        "OpenCASCADE takes too long to intersect the surfaces",
+        "OpenCASCADE broke down over the surfaces", "cancelled before it was built"};
+}
 
 /* What a failed attempt means for the search: cancelling and lack of memory end it. */
 static void note(Search &search, const Failure &failure)
@@ -89,8 +112,9 @@ static void attempt(Search &search, const Step &step)
     const double margin = std::max(step.diagonals * job.diagonal, step.spacings * job.spacing);
     std::vector<char> bytes;
     try {
-        bytes = run_apart(
-            [&] { return pack(measure(job, step.way(job, margin), search.as_bsplines)); }, BOUNDS);
+        bytes =
+            run_apart([&] { return pack(measure(job, step.way(job, margin), search.as_bsplines)); },
+                bounds_for(search, step));
     } catch (const Failure &failure) {
         note(search, failure);
         return;
@@ -114,6 +138,8 @@ static void search_best(Search &search)
     for (const Step &step : steps) {
         if (is_enough(search, step))
             break;
+        if (seconds_for(search, step) < LEAST_SECONDS)
+            continue;
         if (!step.for_solid && search.best && search.best->state == CREASE_PART_SHELL)
             break;
         attempt(search, step);
@@ -208,7 +234,8 @@ crease_status crease_part_build(crease_context *context, const crease_cloud *clo
     return guard(context, "part", [&] {
         check(cloud, regions);
         const Job job(context, cloud, regions, network);
-        Search search = {context, cloud, job, options && options->bspline_faces, {}, ""};
+        Search search = {
+            context, cloud, job, options && options->bspline_faces, seconds_apart(), {}, ""};
         search_best(search);
         *out = part_of(search).release();
     });

@@ -158,6 +158,7 @@ static bool fits_jointly(grouping *g, size_t carrier, size_t region, crease_mode
     if (!crease_fit_kind(&g->fitters[0], &g->fitters[0].sample, own->type, other))
         return false;
     *joint = g->fitters[0].best;
+    joint->patch = (crease_patch){0}; /* a primitive; the room for coefficients is the fitter's */
     const double n[2] = {(double)g->sizes[carrier], (double)size_of(g, region)};
     const double rise = n[0] *
             (mean_square(g, joint, g->chosen[0], large) -
@@ -183,7 +184,7 @@ static crease_status place_region(grouping *g, size_t region)
         crease_model joint;
         if (!may_be_one(&out->models[c], own) || !fits_jointly(g, c, region, &joint))
             continue;
-        out->models[c] = joint; /* a primitive: it owns nothing */
+        out->models[c] = joint;
         out->of_region[region] = (uint32_t)c;
         g->sizes[c] += size_of(g, region);
         return CREASE_OK;

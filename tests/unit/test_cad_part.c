@@ -69,22 +69,37 @@ static void add_sheet(given_points *to, const double at[3], const double u[3], c
     }
 }
 
+enum { MOST_CORNERS = 8 };
+
+/* A body of depth 1 along y over an outline of x and z, and the rectangles (x, z, width, height)
+ * that its ends consist of. */
+typedef struct given_profile {
+    int corners, rectangles;
+    double outline[MOST_CORNERS][2], ends[3][4];
+} given_profile;
+
 /* A block of 2 x 1 x 1 with a step of 1 x 1 x 0.5 cut out of it: volume 1.5, 8 faces. */
-static given_points given_step(void)
+static const given_profile step = {
+    6, 2, {{0, 0}, {2, 0}, {2, 0.5}, {1, 0.5}, {1, 1}, {0, 1}}, {{0, 0, 2, 0.5}, {0, 0.5, 1, 0.5}}};
+/* A block of 2 x 1 x 1 with a slot of 0.8 x 1 x 0.5: volume 1.6, 10 faces, two of them on one
+ * plane. */
+static const given_profile slot = {8, 3,
+    {{0, 0}, {2, 0}, {2, 1}, {1.4, 1}, {1.4, 0.5}, {0.6, 0.5}, {0.6, 1}, {0, 1}},
+    {{0, 0, 2, 0.5}, {0, 0.5, 0.6, 0.5}, {1.4, 0.5, 0.6, 0.5}}};
+
+static given_points given_prism(const given_profile *of)
 {
     given_points out = {0, 0, NULL, NULL};
-    const double outline[6][2] = {{0, 0}, {2, 0}, {2, 0.5}, {1, 0.5}, {1, 1}, {0, 1}};
     const double s = 0.06, depth[3] = {0, 1, 0};
-    for (int i = 0; i < 6; i++) {
-        const double *const a = outline[i], *const b = outline[(i + 1) % 6];
+    for (int i = 0; i < of->corners; i++) {
+        const double *const a = of->outline[i], *const b = of->outline[(i + 1) % of->corners];
         add_sheet(&out, (double[]){a[0], 0, a[1]}, (double[]){b[0] - a[0], 0, b[1] - a[1]}, depth,
             s, (uint64_t)i);
     }
-    for (int y = 0; y <= 1; y++) {
-        add_sheet(&out, (double[]){0, y, 0}, (double[]){2, 0, 0}, (double[]){0, 0, 0.5}, s,
-            10 + (uint64_t)y);
-        add_sheet(&out, (double[]){0, y, 0.5}, (double[]){1, 0, 0}, (double[]){0, 0, 0.5}, s,
-            12 + (uint64_t)y);
+    for (int i = 0; i < 2 * of->rectangles; i++) {
+        const double *const end = of->ends[i / 2];
+        add_sheet(&out, (double[]){end[0], i % 2, end[1]}, (double[]){end[2], 0, 0},
+            (double[]){0, 0, end[3]}, s, 10 + (uint64_t)i);
     }
     return out;
 }
@@ -181,7 +196,7 @@ static void given_a_noisy_box_far_away_then_a_solid_within_the_noise(void **stat
 
 static void given_a_step_then_one_edge_is_concave(void **state)
 {
-    built b = given_part_cloud(given_step(), 2);
+    built b = given_part_cloud(given_prism(&step), 2);
     when_built(&b, NULL);
     then_solid(&b, 8, 18, 1.5, 1e-5);
     size_t concave = 0;
@@ -189,6 +204,20 @@ static void given_a_step_then_one_edge_is_concave(void **state)
         concave += crease_part_edge_at(b.part, e).angle > 180.0;
     assert_int_equal(concave, 1);
     then_written_part_is_closed(&b, "step.igs");
+    free_built(&b);
+}
+
+static void given_lands_on_one_plane_then_they_share_it(void **state)
+{
+    built b = given_part_cloud(given_prism(&slot), 2);
+    when_built(&b, NULL);
+    then_solid(&b, 10, 24, 1.6, 0.005);
+    assert_int_equal(crease_regions_count(b.regions), 10);
+    size_t lands = 0;
+    for (size_t f = 0; f < 10; f++)
+        for (size_t g = 0; g < f; g++)
+            lands += crease_part_face_at(b.part, f).region == crease_part_face_at(b.part, g).region;
+    assert_int_equal(lands, 1);
     free_built(&b);
 }
 
@@ -351,6 +380,7 @@ int main(void)
         cmocka_unit_test(given_a_box_then_faces_know_their_points),
         cmocka_unit_test(given_a_noisy_box_far_away_then_a_solid_within_the_noise),
         cmocka_unit_test(given_a_step_then_one_edge_is_concave),
+        cmocka_unit_test(given_lands_on_one_plane_then_they_share_it),
         cmocka_unit_test(given_a_rod_then_rims_and_a_seam),
         cmocka_unit_test(given_a_pyramid_then_four_faces_meet_in_its_tip),
         cmocka_unit_test(given_bspline_faces_then_the_same_solid_of_splines),
