@@ -35,8 +35,8 @@ namespace crease_cad
 {
 
 /* Seconds of the processor: for all attempts at a solid, and for each other one. */
-static constexpr double SOLID_SECONDS = 20.0, SHELL_SECONDS = 10.0;
-static constexpr double LEAST_SECONDS = 4.0; /* with fewer left no attempt is begun */
+static constexpr double SOLID_SECONDS = 12.0, SHELL_SECONDS = 8.0;
+static constexpr double LEAST_SECONDS = 3.0; /* with fewer left no attempt is begun */
 static constexpr double GOOD_LOSS = 0.04;    /* of a solid: no other way is tried */
 
 /* A way with its margin: the larger of a part of the diagonal and some spacings. */
