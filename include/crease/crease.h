@@ -413,8 +413,8 @@ typedef struct crease_region {
     size_t parameter_count; /**< how many of them are used */
     size_t point_count;     /**< points with this label */
     double rms;             /**< root mean square distance of these points from the surface */
-    double chi; /**< mean squared distance over the squared noise, each cut at 9: about 1
-                     when the surface explains the points */
+    double chi;         /**< mean squared distance over the squared noise, each cut at 9: about 1
+                             when the surface explains the points */
     int32_t tangent[2]; /**< fillets, which are cylinders: the two regions that the surface is
                              exactly tangent to; -1: none */
 } crease_region;

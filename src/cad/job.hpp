@@ -63,9 +63,9 @@ class Job
     gp_Pnt inward(const double place[3]) const;
 
     struct Free {
-        void operator()(crease_carriers *found) const
+        void operator()(crease_carriers *gone) const
         {
-            crease_carriers_free(found);
+            crease_carriers_free(gone);
         }
     };
     std::unique_ptr<crease_carriers, Free> found;
