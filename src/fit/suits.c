@@ -18,6 +18,7 @@ enum { CELL_POINTS = 40, LEAST_POINTS = 6, LEAST_CELLS = 8, MOST_CELLS = 1 << 24
 static const double layered_share = 0.2; /* of the cells, up to which a sheet will do */
 static const double least_layer = 0.05;  /* of a cell's points; else they are outliers */
 static const double least_apart = 0.82;  /* of the variance, between the layers; 0.75: a V */
+static const double rounding = 1e-5;     /* of a cell's side: heights that differ less are equal */
 
 typedef struct cells {
     double low[2], side;
@@ -98,7 +99,7 @@ static int ascending(const void *a, const void *b)
 }
 
 /* Whether the heights, which get sorted, fall apart into two groups. */
-static bool is_layered(double *heights, size_t count)
+static bool is_layered(double *heights, size_t count, double side)
 {
     double sum = 0.0, square = 0.0, below = 0.0, best = 0.0;
     const double n = (double)count, least = fmax(2.0, least_layer * n);
@@ -115,7 +116,8 @@ static bool is_layered(double *heights, size_t count)
         if (low >= least && high >= least)
             best = fmax(best, low * high / n * step * step);
     }
-    return best > least_apart * (square - sum * sum / n);
+    const double spread = square - sum * sum / n;
+    return best > least_apart * spread && spread > n * pow(rounding * side, 2.0);
 }
 
 /* Few cells say nothing. heights: room for those of all points. */
@@ -127,7 +129,7 @@ static bool has_few_layers(const cells *grid, double *heights)
         if (size < LEAST_POINTS)
             continue;
         level(grid->points + 3 * begin, size, heights);
-        layered += is_layered(heights, size);
+        layered += is_layered(heights, size, grid->side);
         count++;
     }
     return count < LEAST_CELLS || (double)layered <= layered_share * (double)count;

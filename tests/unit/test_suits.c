@@ -55,6 +55,22 @@ static void plate(size_t i, double place[3])
     place[2] = 0.8 * place[0] + (i % 10 == 0 ? 3 * spacing : 0) + 0.2 * spacing * noise(i);
 }
 
+/* Two faces without noise: heights over their planes are rounding errors of a few values only. */
+static void exact_roof(size_t i, double place[3])
+{
+    place[0] = 2 * uniform(i, 0) - 1;
+    place[1] = 2 * uniform(i, 1);
+    place[2] = -0.7 * fabs(place[0]);
+}
+
+/* The same as a file of single precision has it. */
+static void rounded_roof(size_t i, double place[3])
+{
+    exact_roof(i, place);
+    for (int c = 0; c < 3; c++)
+        place[c] = (float)place[c];
+}
+
 static bool suits(crease_context *context, const crease_cloud *cloud)
 {
     bool answer = false;
@@ -82,6 +98,8 @@ static void given_a_surface_in_one_layer_then_a_sheet_suits(void **state)
 {
     assert_true(surface_suits(steep_roof));
     assert_true(surface_suits(gutter));
+    assert_true(surface_suits(exact_roof));
+    assert_true(surface_suits(rounded_roof));
 }
 
 static void given_a_surface_over_another_then_no_sheet_suits(void **state)
