@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: The crease authors
+
+"""A model that keeps its sharp edges."""
+
+from __future__ import annotations
+
+from ctypes import byref, c_bool
+from typing import Any, Iterable, Literal, overload
+
+from numpy.typing import ArrayLike
+
+from ._cloud import Cloud, Points, as_cloud
+from ._declarations import (AveragingOptions, DetectOptions, Orientation, PartOptions,
+                            RegionsOptions, SheetOptions)
+from ._errors import UsageError
+from ._library import LIBRARY
+from ._options import choose, fill
+from ._part import Part, build_part
+from ._sheet import Sheet
+from ._work import ProgressCallback, Work
+
+_PART = {"sigma", "faces"}
+_TURN = {"net", "orientation", "rotation"}
+_SHEET = _TURN | {"order", "most_creases", "smoothing", "tolerance"}
+_AVERAGING = _TURN | {"neighbours", "resamples", "averaging_neighbours", "passes",
+                      "marking_neighbours", "mark_threshold", "row_threshold", "multiplicity"}
+_TAKES = {"automatic": _PART | _SHEET, "part": _PART, "sheet": _SHEET, "averaging": _AVERAGING}
+
+
+def _check(method: str, given: Iterable[str]) -> None:
+    takes = choose("method", method, _TAKES)
+    for name in given:
+        if name not in takes:
+            owners = " or ".join(other for other in _TAKES if name in _TAKES[other])
+            raise UsageError(f"{name}: the method {method} has no such option; {owners} has")
+
+
+def _orientation(given: dict[str, Any]) -> dict[str, Any]:
+    """How the cloud is turned: a rotation, when there is one, decides."""
+    if "rotation" in given:
+        return {"rotation": given["rotation"], "orientation": Orientation.GIVEN}
+    if "orientation" in given:
+        kinds = {kind.name.lower(): kind for kind in (Orientation.AUTOMATIC, Orientation.NONE)}
+        return {"orientation": choose("orientation", given["orientation"], kinds)}
+    return {}
+
+
+def _sheet_options(given: dict[str, Any]) -> SheetOptions:
+    options: SheetOptions = fill(
+        LIBRARY.crease_sheet_options_default(), **_orientation(given), net=given.get("net"),
+        order=given.get("order"), creases=given.get("most_creases"),
+        smoothing=given.get("smoothing"), tolerance=given.get("tolerance"))
+    return options
+
+
+def _averaging_options(given: dict[str, Any]) -> AveragingOptions:
+    own = {name: given.get(name) for name in _AVERAGING - _TURN - {"neighbours", "resamples"}}
+    options: AveragingOptions = fill(LIBRARY.crease_averaging_options_default(),
+                                     **_orientation(given), net=given.get("net"), **own)
+    detect: DetectOptions = options.detect
+    fill(detect, neighbours=given.get("neighbours"), resamples=given.get("resamples"))
+    return options
+
+
+def _part_options(given: dict[str, Any]) -> tuple[RegionsOptions, PartOptions]:
+    bspline = choose("faces", given.get("faces", "analytic"), {"analytic": False, "bspline": True})
+    splitting = fill(LIBRARY.crease_regions_options_default(), sigma=given.get("sigma"))
+    return splitting, PartOptions(bspline_faces=bspline)
+
+
+def _chosen(work: Work, cloud: Cloud, given: dict[str, Any]) -> str:
+    """A sheet where one can follow the cloud, or where options are set that only sheets have."""
+    if given.keys() & _SHEET:
+        return "sheet"
+    suits = c_bool(True)
+    work.call("crease_sheet_suits", cloud._handle, byref(suits))
+    return "sheet" if suits.value else "part"
+
+
+@overload
+def fit(points: Points, *, method: Literal["sheet"], net: ArrayLike | None = ...,
+        orientation: Literal["automatic", "none"] | None = ..., rotation: ArrayLike | None = ...,
+        order: int | None = ..., most_creases: int | None = ..., smoothing: float | None = ...,
+        tolerance: float | None = ..., seed: int = ..., threads: int = ...,
+        progress: ProgressCallback | None = ...) -> Sheet: ...
+
+
+@overload
+def fit(points: Points, *, method: Literal["averaging"], net: ArrayLike | None = ...,
+        orientation: Literal["automatic", "none"] | None = ..., rotation: ArrayLike | None = ...,
+        neighbours: int | None = ..., resamples: int | None = ...,
+        averaging_neighbours: int | None = ..., passes: int | None = ...,
+        marking_neighbours: int | None = ..., mark_threshold: float | None = ...,
+        row_threshold: int | None = ..., multiplicity: int | None = ..., seed: int = ...,
+        threads: int = ..., progress: ProgressCallback | None = ...) -> Sheet: ...
+
+
+@overload
+def fit(points: Points, *, method: Literal["part"], sigma: float | None = ...,
+        faces: Literal["analytic", "bspline"] | None = ..., seed: int = ..., threads: int = ...,
+        progress: ProgressCallback | None = ...) -> Part: ...
+
+
+@overload
+def fit(points: Points, *, method: Literal["automatic"] = ..., sigma: float | None = ...,
+        faces: Literal["analytic", "bspline"] | None = ..., net: ArrayLike | None = ...,
+        orientation: Literal["automatic", "none"] | None = ..., rotation: ArrayLike | None = ...,
+        order: int | None = ..., most_creases: int | None = ..., smoothing: float | None = ...,
+        tolerance: float | None = ..., seed: int = ..., threads: int = ...,
+        progress: ProgressCallback | None = ...) -> Sheet | Part: ...
+
+
+def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: int = 0,
+        progress: ProgressCallback | None = None, **options: Any) -> Sheet | Part:
+    """Fits a model that is sharp along the edges that the data show. Nothing needs to be set; the
+    options are those of `crease fit`.
+
+    points: an array of n x 3, a crease.Cloud, or the path of a file.
+    method: part: a face for every smooth region, closed to a solid where the points allow; sheet:
+    one surface whose creases are knot lines; averaging: the paper's Algorithm 1; automatic: a sheet
+    where no surface lies over another, or where an option is given that only sheets have, else a
+    part.
+
+    Of part: sigma: noise of the points along the normal, when it is known; faces: analytic (planes,
+    cylinders ... as what they are) or bspline.
+    Of sheet and averaging: net: control points across and along the edge; orientation: automatic or
+    none; rotation: 3 x 3, turns the cloud instead.
+    Of sheet: order; most_creases in each direction; smoothing: weight of the thin-plate term;
+    tolerance: refine until the rms deviation is below.
+    Of averaging: neighbours, resamples, averaging_neighbours, passes, marking_neighbours,
+    mark_threshold, row_threshold, multiplicity.
+    threads, progress: as in crease.detect().
+    """
+    given = {name: value for name, value in options.items() if value is not None}
+    unknown = given.keys() - set().union(*_TAKES.values())
+    if unknown:
+        raise TypeError(f"fit() got an unexpected keyword argument {min(unknown)!r}")
+    _check(method, given)
+    cloud = as_cloud(points)
+    with Work(threads=threads, seed=seed, progress=progress) as work:
+        if method == "automatic":
+            method = _chosen(work, cloud, given)
+        if method == "part":
+            return build_part(work, cloud, *_part_options(given))
+        if method == "averaging":
+            handle = work.make("sheet", "crease_averaging_fit", cloud._handle,
+                               byref(_averaging_options(given)))
+        else:
+            handle = work.make("sheet", "crease_sheet_fit", cloud._handle,
+                               byref(_sheet_options(given)))
+    return Sheet(cloud, handle, method)
