@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import threading
 import warnings
@@ -33,6 +34,26 @@ def _raise(status: int, sentence: str) -> NoReturn:
     raise kind(sentence, Status(status).name.removeprefix("ERROR_"))
 
 
+class _Threads:
+    """GNU's OpenMP waits forever for its threads in a process made by fork; the results are the same
+    with one thread."""
+
+    used = False  #: whether this process, or the one it was forked from, had more than one
+    gone = False  #: whether they are those of another process
+
+    @classmethod
+    def after_fork(cls) -> None:
+        cls.gone = cls.used
+
+    @classmethod
+    def allowed(cls, threads: int) -> int:
+        cls.used = cls.used or threads != 1
+        return 1 if cls.gone else threads
+
+
+os.register_at_fork(after_in_child=_Threads.after_fork)
+
+
 class Work:
     """A series of calls: `with Work(threads=4) as work: work.call("crease_...", ...)`.
 
@@ -47,6 +68,7 @@ class Work:
         self._exception: BaseException | None = None
         self._odd: list[str] = []
         self._options = fill(LIBRARY.crease_context_options_default(), threads=threads, seed=seed)
+        self._options.threads = _Threads.allowed(self._options.threads)
         self._options.cancelled = Cancelled(self._is_cancelled)
         self._options.warn = Warn(self._note_warning)
         if progress is not None:

@@ -115,6 +115,17 @@ def test_several_threads_of_python_work_at_the_same_time():
     assert all(np.array_equal(one, other) for one, other in zip(alone, together))
 
 
+def test_a_forked_process_works_with_one_thread():
+    script = ("import crease, os, signal, sys\n"
+              "cloud = crease.example('panel', count=3000)\n"
+              "here = crease.detect(cloud, threads=2).variance.tobytes()\n"
+              "if os.fork():\n"
+              "    sys.exit(os.waitstatus_to_exitcode(os.wait()[1]))\n"
+              "signal.alarm(40)\n"
+              "os._exit(0 if crease.detect(cloud, threads=2).variance.tobytes() == here else 1)\n")
+    assert subprocess.run([sys.executable, "-c", script], timeout=60).returncode == 0
+
+
 def test_memory_that_runs_out_is_a_memory_error():
     script = ("import resource, numpy as np, crease\n"
               "cloud = crease.Cloud(np.random.default_rng(1).random((200000, 3)))\n"
