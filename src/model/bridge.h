@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* Edges that no points show, as in the shadow of a scan: between vertices at which edges of the
+ * same two regions are missing. */
+#ifndef CREASE_MODEL_BRIDGE_H
+#define CREASE_MODEL_BRIDGE_H
+
+#include "model/graph.h"
+
+/* Adds them, shortest first: along the common curve of the two surfaces, or, where these are nearly
+ * one, straight. Where the two regions have an edge already, no second one runs. */
+crease_status crease_bridges_build(crease_graph *graph);
+
+#endif

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+#include "model/ends.h"
+
+#include "base/vector.h"
+#include "crease/intersect.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { LOOK_BACK = 30, LEAF_POINTS = 16, SIMPLE_CORNER = 3 };
+
+/* In spacings. */
+static const double JOIN_REACH = 4.0;
+static const double AHEAD = 0.1;
+static const double SAME = 0.02;
+static const double SPREAD_REACH = 3.0;
+static const double CLOSE = 0.05; /* surfaces that meet */
+
+/* ------------------------------------------------------------------------------- joining -- */
+
+static int32_t nearest_vertex(const crease_topology *t, const double place[3], int32_t other)
+{
+    int32_t nearest = CREASE_NO_VERTEX;
+    double least = JOIN_REACH * t->spacing;
+    for (size_t v = 0; v < t->vertex_count; v++) {
+        const double away = crease_vector_distance(t->vertices[v].place, place);
+        if ((int32_t)v != other && away < least) {
+            least = away;
+            nearest = (int32_t)v;
+        }
+    }
+    return nearest;
+}
+
+crease_status crease_ends_join(crease_graph *graph)
+{
+    const crease_topology *const t = graph->topology;
+    crease_status status = CREASE_OK;
+    for (size_t e = 0; e < t->edge_count; e++)
+        for (int w = 0; w < 2 && !t->edges[e].closed && status == CREASE_OK; w++) {
+            crease_edge *const edge = &t->edges[e];
+            const double *const tip = edge->points + (w ? 3 * (edge->count - 1) : 0);
+            if (edge->vertices[w] != CREASE_NO_VERTEX)
+                continue;
+            edge->vertices[w] = nearest_vertex(t, tip, edge->vertices[1 - w]);
+            if (edge->vertices[w] == CREASE_NO_VERTEX)
+                status = crease_graph_vertex(graph, tip, &edge->vertices[w]);
+        }
+    return status;
+}
+
+/* ------------------------------------------------------------------------------- meeting -- */
+
+/* Removes the first points of an edge that do not have a place behind them. */
+static void cut_back(crease_edge *edge, const double place[3], double s)
+{
+    const double *const p = edge->points;
+    double least = INFINITY;
+    size_t first = 0;
+    for (size_t i = 0; i < edge->count && i < LOOK_BACK; i++) {
+        const double away = crease_vector_distance(p + 3 * i, place);
+        first = away < least ? i : first;
+        least = fmin(least, away);
+    }
+    for (; first + 1 < edge->count; first++) {
+        double from[3], on[3];
+        for (size_t c = 0; c < 3; c++) {
+            from[c] = p[3 * first + c] - place[c];
+            on[c] = p[3 * first + 3 + c] - p[3 * first + c];
+        }
+        if (crease_vector_dot(from, on) > AHEAD * s * crease_vector_length(on))
+            break;
+    }
+    if (first + 1 == edge->count && first > 0 &&
+        crease_vector_distance(p + 3 * first, place) < SAME * s)
+        first--;
+    crease_edge_erase(edge, 0, first);
+}
+
+static crease_status meet_first(crease_graph *graph, crease_edge *edge)
+{
+    const double *const place = graph->topology->vertices[edge->vertices[0]].place;
+    const double s = graph->survey->spacing;
+    cut_back(edge, place, s);
+    if (edge->count > 1 && crease_vector_distance(edge->points, place) < SAME * s)
+        crease_edge_erase(edge, 0, 1);
+    return crease_edge_insert(graph->context, edge, 0, place);
+}
+
+crease_status crease_ends_meet(crease_graph *graph)
+{
+    const crease_topology *const t = graph->topology;
+    crease_status status = CREASE_OK;
+    for (size_t e = 0; e < t->edge_count; e++)
+        for (int w = 0; w < 2 && !t->edges[e].closed && status == CREASE_OK; w++) {
+            status = meet_first(graph, &t->edges[e]);
+            crease_edge_reverse(&t->edges[e]);
+        }
+    return status;
+}
+
+/* ------------------------------------------------------------------------------- pruning -- */
+
+static bool has_twin(const crease_topology *t, size_t leaf, int32_t vertex)
+{
+    const crease_edge *const edge = &t->edges[leaf];
+    for (size_t i = 0; i < t->edge_count; i++) {
+        const crease_edge *const other = &t->edges[i];
+        if (i != leaf && other->count > 0 && other->regions[0] == edge->regions[0] &&
+            other->regions[1] == edge->regions[1] &&
+            (other->vertices[0] == vertex || other->vertices[1] == vertex))
+            return true;
+    }
+    return false;
+}
+
+void crease_ends_prune(crease_graph *graph)
+{
+    const crease_topology *const t = graph->topology;
+    for (size_t e = 0; e < t->edge_count; e++) {
+        crease_edge *const edge = &t->edges[e];
+        for (int w = 0; w < 2 && !edge->closed && edge->count < LEAF_POINTS; w++)
+            if (crease_graph_ends(graph, edge->vertices[w], -1) == 1 &&
+                has_twin(t, e, edge->vertices[1 - w]))
+                crease_edge_clear(edge);
+    }
+    crease_graph_drop_empty(graph);
+}
+
+/* ----------------------------------------------------------------------------- finishing -- */
+
+/* The region that two edges have in common, then the other ones. False when they have none, or
+ * both. */
+static bool three_regions(const crease_edge *a, const crease_edge *b, uint32_t out[3])
+{
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++) {
+            out[0] = a->regions[i];
+            out[1] = a->regions[1 - i];
+            out[2] = b->regions[1 - k];
+            if (a->regions[i] == b->regions[k] && out[1] != out[2])
+                return true;
+        }
+    return false;
+}
+
+static void spread_at(crease_graph *graph, const crease_edge *a, const crease_edge *b, int32_t v)
+{
+    crease_vertex *const vertex = &graph->topology->vertices[v];
+    const double s = graph->survey->spacing;
+    const crease_model *models[3];
+    uint32_t regions[3];
+    double place[3] = {vertex->place[0], vertex->place[1], vertex->place[2]};
+    if (!three_regions(a, b, regions))
+        return;
+    for (int i = 0; i < 3; i++)
+        models[i] = &graph->survey->regions->models[regions[i]];
+    if (crease_intersection_meet(models, 3, SPREAD_REACH * s, CLOSE * s, place))
+        vertex->spread = fmax(vertex->spread, crease_vector_distance(place, vertex->place));
+}
+
+/* Where more than three surfaces meet, any three of them meet in another place. */
+static void find_spreads(crease_graph *graph)
+{
+    const crease_topology *const t = graph->topology;
+    for (size_t a = 0; a < t->edge_count; a++)
+        for (size_t b = a + 1; b < t->edge_count; b++)
+            for (int w = 0; w < 2; w++) {
+                const crease_edge *const x = &t->edges[a], *const y = &t->edges[b];
+                const int32_t v = x->vertices[w];
+                if ((y->vertices[0] == v || y->vertices[1] == v) && !x->smooth && !y->smooth &&
+                    crease_graph_ends(graph, v, -1) > SIMPLE_CORNER)
+                    spread_at(graph, x, y, v);
+            }
+}
+
+static void finish_edge(const crease_graph *graph, crease_edge *edge)
+{
+    for (int w = 0; w < 2 && !edge->closed; w++) {
+        double along[3], *const tip = edge->points + (w ? 3 * (edge->count - 1) : 0);
+        const double *const next = w ? tip - 3 : tip + 3;
+        for (int c = 0; c < 3; c++)
+            along[c] = next[c] - tip[c];
+        crease_vector_normalise(along);
+        crease_graph_onto(graph, edge, along, tip);
+    }
+}
+
+void crease_ends_finish(crease_graph *graph)
+{
+    for (size_t e = 0; e < graph->topology->edge_count; e++)
+        finish_edge(graph, &graph->topology->edges[e]);
+    find_spreads(graph);
+}

@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* Links between neighbouring points of different regions: they tell which regions meet, and where.
+ * A link that no edge of its two regions accounts for is loose; many of them show that the regions
+ * join smoothly there. */
+#ifndef CREASE_MODEL_LINKS_H
+#define CREASE_MODEL_LINKS_H
+
+#include "model/graph.h"
+
+typedef struct crease_link {
+    uint32_t regions[2]; /* ascending */
+    double place[3];     /* middle of the two points */
+} crease_link;
+
+/* Sorted by regions, so that those of one pair are together. */
+typedef struct crease_links {
+    size_t count;
+    crease_link *items;
+} crease_links;
+
+crease_status crease_links_find(
+    crease_context *context, const crease_survey *survey, crease_links *out);
+void crease_links_clear(crease_links *links);
+/* The end of the run of links of one pair that begins at number `begin`. */
+size_t crease_links_run(const crease_links *links, size_t begin);
+
+/* The loose links of two regions. */
+typedef struct crease_loose {
+    uint32_t regions[2];
+    size_t count;
+    double *places;
+    crease_tree *tree; /* of the places; NULL when there are none */
+} crease_loose;
+
+/* Those of the run from begin to end. */
+crease_status crease_loose_find(const crease_graph *graph, const crease_links *links, size_t begin,
+    size_t end, crease_loose *out);
+void crease_loose_clear(crease_loose *loose);
+/* The main direction of those within a distance of a place, their number and mean. */
+size_t crease_loose_direction(const crease_loose *loose, const double place[3], double distance,
+    double mean[3], double direction[3]);
+
+#endif

@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* The steps from regions to faces. */
+#include "model/topology.h"
+
+#include "base/memory.h"
+#include "crease/profile.h"
+#include "crease/support.h"
+#include "model/bridge.h"
+#include "model/charts.h"
+#include "model/ends.h"
+#include "model/extend.h"
+#include "model/face.h"
+#include "model/loop.h"
+#include "model/seam.h"
+#include "model/tangency.h"
+#include "model/turn.h"
+
+#include <stdlib.h>
+
+static const double LEAST_TURN = 0.1745329251994329577; /* 10 degrees: less is no crease */
+
+static void clear_edges(crease_topology *topology)
+{
+    for (size_t i = 0; i < topology->edge_count; i++)
+        crease_edge_clear(&topology->edges[i]);
+    topology->edge_count = 0;
+}
+
+static void free_models(crease_model *models, size_t count)
+{
+    for (size_t i = 0; models && i < count; i++)
+        crease_model_clear(&models[i]);
+    free(models);
+}
+
+static crease_status trace(
+    crease_context *context, const crease_survey *survey, crease_chains *chains)
+{
+    crease_status status = crease_support_trace(context, survey, chains);
+    if (status == CREASE_OK)
+        status = crease_profile_prune(context, survey, chains);
+    return status;
+}
+
+static crease_status make_edges(crease_graph *graph, crease_chains *chains)
+{
+    crease_junctions corners = {.count = 0};
+    crease_links links = {.count = 0};
+    crease_status status = crease_junctions_find(graph->context, graph->survey, chains, &corners);
+    if (status == CREASE_OK)
+        status = crease_graph_begin(graph, chains, &corners);
+    crease_junctions_clear(&corners);
+    if (status == CREASE_OK)
+        status = crease_ends_extend(graph);
+    if (status == CREASE_OK)
+        status = crease_ends_join(graph);
+    if (status == CREASE_OK)
+        status = crease_links_find(graph->context, graph->survey, &links);
+    if (status == CREASE_OK)
+        status = crease_seams_relocate(graph, &links);
+    if (status == CREASE_OK)
+        status = crease_ends_meet(graph);
+    if (status == CREASE_OK) {
+        crease_ends_prune(graph);
+        status = crease_seams_find(graph, &links);
+    }
+    if (status == CREASE_OK)
+        status = crease_bridges_build(graph);
+    crease_links_clear(&links);
+    return status;
+}
+
+static crease_status make_faces(crease_graph *graph)
+{
+    int32_t *const seams =
+        crease_allocate(graph->context, graph->topology->region_count, 2 * sizeof *seams);
+    if (!seams)
+        return CREASE_ERROR_NO_MEMORY;
+    crease_status status = crease_charts_make(graph);
+    if (status == CREASE_OK)
+        status = crease_turns_cut(graph, seams);
+    if (status == CREASE_OK) {
+        crease_ends_finish(graph);
+        status = crease_faces_make(graph, seams);
+    }
+    if (status == CREASE_OK)
+        status = crease_charts_cover(graph);
+    free(seams);
+    return status;
+}
+
+/* Copies of the models, which tangency may change. */
+static crease_model *copy_models(crease_context *context, const crease_regions *regions)
+{
+    crease_model *const out = crease_allocate(context, regions->region_count, sizeof *out);
+    bool complete = out != NULL;
+    for (size_t i = 0; i < regions->region_count && complete; i++)
+        complete = crease_model_copy(context, &regions->models[i], &out[i]) == CREASE_OK;
+    if (!complete)
+        free_models(out, regions->region_count);
+    return complete ? out : NULL;
+}
+
+static crease_status impose_tangency(
+    crease_graph *graph, const crease_chains *chains, crease_model *models, bool *changed)
+{
+    const crease_junctions none = {.count = 0};
+    crease_links links = {.count = 0};
+    crease_status status = crease_graph_begin(graph, chains, &none);
+    if (status == CREASE_OK)
+        status = crease_links_find(graph->context, graph->survey, &links);
+    if (status == CREASE_OK)
+        status = crease_tangency_impose(graph, &links, models, changed);
+    crease_links_clear(&links);
+    clear_edges(graph->topology);
+    return status;
+}
+
+static crease_status find(crease_context *context, const crease_survey *survey,
+    crease_model *models, crease_topology *topology)
+{
+    crease_graph graph = {context, survey, topology};
+    crease_chains chains = {.count = 0};
+    bool changed = false;
+    crease_status status = trace(context, survey, &chains);
+    if (status == CREASE_OK)
+        status = impose_tangency(&graph, &chains, models, &changed);
+    if (status == CREASE_OK && changed) {
+        crease_chains_clear(&chains);
+        status = trace(context, survey, &chains);
+    }
+    if (status == CREASE_OK)
+        status = make_edges(&graph, &chains);
+    crease_chains_clear(&chains);
+    if (status == CREASE_OK)
+        status = make_faces(&graph);
+    return status;
+}
+
+static crease_topology *empty(crease_context *context, const crease_regions *regions)
+{
+    crease_topology *const out = crease_allocate(context, 1, sizeof *out);
+    if (!out)
+        return NULL;
+    out->spacing = regions->noise->spacing;
+    out->region_count = regions->region_count;
+    out->open = crease_allocate(context, regions->region_count, sizeof *out->open);
+    if (out->open)
+        return out;
+    free(out);
+    return NULL;
+}
+
+crease_status crease_topology_find(
+    crease_context *context, const crease_regions *regions, crease_topology **out)
+{
+    crease_tree *tree = NULL;
+    crease_regions view = *regions; /* with models that may change */
+    crease_topology *const topology = empty(context, regions);
+    view.models = topology ? copy_models(context, regions) : NULL;
+    *out = NULL;
+    crease_stage(context, "topology");
+    crease_status status = view.models ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+    if (status == CREASE_OK)
+        status = crease_tree_create(context, regions->points, regions->count, &tree);
+    if (status == CREASE_OK) {
+        const crease_survey survey = {.regions = &view,
+            .tree = tree,
+            .spacing = regions->noise->spacing,
+            .sigma = regions->sigma,
+            .least_bend = LEAST_TURN};
+        status = find(context, &survey, view.models, topology);
+    }
+    crease_tree_free(tree);
+    free_models(view.models, regions->region_count);
+    if (status == CREASE_OK)
+        *out = topology;
+    else
+        crease_topology_free(topology);
+    return status;
+}
+
+static void clear_face(crease_face *face)
+{
+    for (size_t i = 0; i < face->loop_count; i++)
+        crease_loop_clear(&face->loops[i]);
+    free(face->loops);
+}
+
+void crease_topology_free(crease_topology *topology)
+{
+    if (!topology)
+        return;
+    clear_edges(topology);
+    for (size_t i = 0; i < topology->face_count; i++)
+        clear_face(&topology->faces[i]);
+    for (size_t i = 0; topology->charts && i < topology->region_count; i++)
+        free(topology->charts[i].heights);
+    free(topology->charts);
+    free(topology->open);
+    free(topology->vertices);
+    free(topology->edges);
+    free(topology->faces);
+    free(topology);
+}
