@@ -25,6 +25,9 @@ Job::Job(crease_context *context, const crease_cloud *cloud, const crease_region
     crease_carriers *raw = nullptr;
     require(crease_carriers_find(context, regions, &raw));
     found.reset(raw);
+    crease_topology *raw_topology = nullptr;
+    require(crease_topology_find(context, regions, &raw_topology));
+    shown.reset(raw_topology);
     set_frame(cloud);
     take_carriers();
     take_points(cloud);
@@ -111,6 +114,16 @@ double Job::height(const Carrier &carrier, double x, double y) const
 double Job::area_of_point(size_t index) const
 {
     return crease_carriers_areas(found.get())[index];
+}
+
+Scaling Job::inwards() const
+{
+    return {centre, factor};
+}
+
+const crease_topology &Job::topology() const
+{
+    return *shown;
 }
 
 double Job::scale() const

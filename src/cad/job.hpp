@@ -7,8 +7,10 @@
 #ifndef CREASE_CAD_JOB_HPP
 #define CREASE_CAD_JOB_HPP
 
+#include "cad/sheet.hpp"
 #include "crease/crease_cad.h"
 #include "model/carriers.h"
+#include "model/topology.h"
 
 #include <TopoDS_Shape.hxx>
 #include <gp_Ax3.hxx>
@@ -55,6 +57,8 @@ class Job
     gp_Trsf outward; /* from this frame to that of the cloud */
     const crease_regions *regions;
     const crease_network *network;
+    Scaling inwards() const; /* from the cloud's frame to this one */
+    const crease_topology &topology() const;
 
   private:
     void set_frame(const crease_cloud *cloud);
@@ -68,7 +72,14 @@ class Job
             crease_carriers_free(gone);
         }
     };
+    struct TopologyFree {
+        void operator()(crease_topology *given) const
+        {
+            crease_topology_free(given);
+        }
+    };
     std::unique_ptr<crease_carriers, Free> found;
+    std::unique_ptr<crease_topology, TopologyFree> shown; /* by the points */
     gp_XYZ centre;
     double factor; /* see scale() */
 };

@@ -47,6 +47,7 @@ struct Step {
 };
 
 static constexpr Step steps[] = {
+    {follow_topology, 0.0, 0.0, true},
     {arrange_solid, 0.03, 1.8, true},
     {arrange_solid, 0.06, 3.6, true},
     {arrange_solid, 0.12, 7.2, true},

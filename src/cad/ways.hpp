@@ -10,6 +10,10 @@
 namespace crease_cad
 {
 
+/* A solid, or shells: the faces, edges and vertices that the points show, put together. Takes no
+ * margin. */
+Attempt follow_topology(const Job &job, double margin);
+
 /* A solid: the carriers' faces, a margin larger than their points, are intersected all at once, and
  * the cells that the points say are inside are united. */
 Attempt arrange_solid(const Job &job, double margin);
