@@ -185,7 +185,7 @@ static void describe(report *r, const result *all)
     deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
     describe_lists(r, all);
     if (state == CREASE_PART_SOLID)
-        report_line(r, "%s, volume %.6g", words[state], volume);
+        report_line(r, "%s, volume %.6g%s%s", words[state], volume, *why ? "; but " : "", why);
     else
         report_line(r, "%s: %s", words[state], why);
     describe_kinds(r, all);

@@ -32,11 +32,32 @@ static void project(crease_context *context, const crease_cloud *cloud, Judged &
     }
 }
 
+static double off_distance(const Job &job)
+{
+    return (OFF_SIGMAS * job.sigma + OFF_SPACINGS * job.spacing) / job.scale();
+}
+
+static size_t lost_of(const Job &job, const Judged &judged)
+{
+    const int32_t *const labels = crease_regions_labels(job.regions);
+    const double off = off_distance(job);
+    std::vector<size_t> all(crease_regions_count(job.regions), 0), on(all);
+    for (size_t i = 0; i < judged.deviations.size(); i++)
+        if (labels[i] >= 0) {
+            all[(size_t)labels[i]]++;
+            on[(size_t)labels[i]] += std::fabs(judged.deviations[i]) <= off;
+        }
+    size_t lost = 0;
+    for (size_t r = 0; r < on.size(); r++)
+        lost += 2 * on[r] < all[r];
+    return lost;
+}
+
 /* A face half covered is taken for covered: scans have shadows. */
 static double loss_of(const Job &job, const Judged &judged)
 {
     const int32_t *const labels = crease_regions_labels(job.regions);
-    const double off = (OFF_SIGMAS * job.sigma + OFF_SPACINGS * job.spacing) / job.scale();
+    const double off = off_distance(job);
     std::vector<double> support(judged.outcome.faces.size(), 0.0);
     double total = 0.0, missed = 0.0, bare = 0.0;
     for (size_t i = 0; i < judged.deviations.size(); i++) {
@@ -68,6 +89,7 @@ Judged judge(crease_context *context, const crease_cloud *cloud, const Job &job,
     out.state = state_of(out.outcome.summary);
     project(context, cloud, out);
     out.loss = loss_of(job, out);
+    out.lost = lost_of(job, out);
     return out;
 }
 
@@ -79,7 +101,7 @@ bool is_true_solid(const Judged &judged)
 static int rank(const Judged &judged)
 {
     if (is_true_solid(judged))
-        return 2;
+        return judged.lost == 0 ? 3 : 2;
     return judged.state == CREASE_PART_SHELL && judged.loss < MOST_SHELL_LOSS;
 }
 

@@ -24,6 +24,7 @@ struct Judged {
     crease_part_state state;
     double loss; /* area that the points stand for and that is not on the shape, plus area of the
                     shape without points, over the area that all points stand for */
+    size_t lost; /* regions most of whose points are not on the shape */
     std::unique_ptr<crease_mesh, MeshFree> mesh;
     std::vector<double> deviations; /* of all points, signed */
     std::vector<int32_t> nearest;   /* face of each point */
@@ -34,7 +35,7 @@ Judged judge(crease_context *context, const crease_cloud *cloud, const Job &job,
 
 /* Whether the solid is what the points say. */
 bool is_true_solid(const Judged &judged);
-/* Whether a is more worth than b: state first, then loss. */
+/* Whether a is more worth than b: state first, then regions lost or not, then loss. */
 bool is_better(const Judged &a, const Judged &b);
 
 /* Statistics of the faces. */

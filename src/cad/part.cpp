@@ -37,7 +37,7 @@ namespace crease_cad
 /* Seconds of the processor: for all attempts at a solid, and for each other one. */
 static constexpr double SOLID_SECONDS = 12.0, SHELL_SECONDS = 8.0;
 static constexpr double LEAST_SECONDS = 3.0; /* with fewer left no attempt is begun */
-static constexpr double GOOD_LOSS = 0.04;    /* of a solid: no other way is tried */
+static constexpr double GOOD_LOSS = 0.04;    /* of a result: no other way is tried */
 
 /* A way with its margin: the larger of a part of the diagonal and some spacings. */
 struct Step {
@@ -131,7 +131,7 @@ static bool is_enough(const Search &search, const Step &next)
 {
     if (!search.best || !is_true_solid(*search.best))
         return false;
-    return !next.for_solid || search.best->loss < GOOD_LOSS;
+    return !next.for_solid || (search.best->loss < GOOD_LOSS && search.best->lost == 0);
 }
 
 static void search_best(Search &search)
@@ -141,7 +141,8 @@ static void search_best(Search &search)
             break;
         if (seconds_for(search, step) < LEAST_SECONDS)
             continue;
-        if (!step.for_solid && search.best && search.best->state == CREASE_PART_SHELL)
+        if (!step.for_solid && search.best && search.best->state == CREASE_PART_SHELL &&
+            search.best->loss < GOOD_LOSS)
             break;
         attempt(search, step);
     }
@@ -158,11 +159,18 @@ static std::string free_edges_of(const Outcome &outcome)
     return std::to_string(count) + (count == 1 ? " free edge" : " free edges");
 }
 
+static std::string lost_sentence(const Judged &best)
+{
+    return "most points of " + std::to_string(best.lost) +
+        (best.lost == 1 ? " smooth region are" : " smooth regions are") +
+        " not on the solid: look at the deviations";
+}
+
 static std::string message_of(const Search &search)
 {
     const Judged &best = *search.best;
     if (is_true_solid(best))
-        return best.outcome.why;
+        return best.lost == 0 ? best.outcome.why : lost_sentence(best);
     const std::string faces = std::to_string(best.outcome.faces.size()) +
         (best.outcome.faces.size() == 1 ? " face" : " faces");
     const std::string what = best.state == CREASE_PART_SHELL

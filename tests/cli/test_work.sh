@@ -176,6 +176,9 @@ expect 0 "30000 points" example bracket -o bracket.ply
 expect 0 "11 faces: 8 planes, 3 cylinders" fit bracket.ply -o bracket.step
 expect 0 "1 solids, 1 shells (1 closed), 11 faces" info bracket.step
 expect 0 "11 faces, 0 of them without a point" compare bracket.step bracket.ply
+# a sparse scan: a way of building that fills the large hole must not win (volume 73 700 then)
+expect 0 "8000 points" example bracket --count 8000 -o sparse.ply
+expect 0 "a closed, valid solid, volume 67" fit sparse.ply -o sparse.step
 
 # --- fit, the paper's algorithm: rows 3 and 4 are repeated, a flat-topped ridge
 expect 0 "control points" fit sample.ply --method averaging -o a.step --report a.json
