@@ -42,7 +42,7 @@ const option option_table[] = {
         NULL},
     {"sigma", 0, OPTION_REAL, "S", FOR_DETECT | FOR_FIT | FOR_FILTER, AT(sigma), 0, 1e150, NULL,
         "noise of the points along the normal, when it is known: a length; each point is then "
-        "taken to err by itself",
+        "taken to err by itself. A sheet finds its own",
         "0: estimated"},
     {"window", 'w', OPTION_INTEGER, "K", FOR_FILTER, AT(filter.neighbours), 25, 256, NULL,
         "points among which a point's surface is sought, itself included", NULL},

@@ -172,6 +172,7 @@ expect 0 "6 B-spline, 0 plane, 0 other" info pb.step
 expect 0 "1 solids" info pb.step
 expect 0 "control points" fit cube.ply --method sheet -o forced.step
 expect 2 "analytic or bspline" fit cube.ply --faces round
+expect 0 "noise 0.003" fit cube.ply --sigma 0.003 -o known.step
 expect 0 "30000 points" example bracket -o bracket.ply
 expect 0 "11 faces: 8 planes, 3 cylinders" fit bracket.ply -o bracket.step
 expect 0 "1 solids, 1 shells (1 closed), 11 faces" info bracket.step
