@@ -3,7 +3,7 @@
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 
-.PHONY: build demo test bench-rivals install clean
+.PHONY: build demo test bench-rivals install uninstall dist deb sbom clean
 
 build:
 	@tools/install-dependencies build
@@ -27,6 +27,21 @@ bench-rivals:
 
 install: build
 	@cmake --install build
+
+uninstall:
+	@cmake --build build --target uninstall
+
+# The source archive, the Debian packages and the bill of materials: docs/packaging.md.
+dist:
+	@tools/make-archive build
+
+deb:
+	@tools/install-dependencies deb
+	@tools/make-deb build/deb
+
+sbom: build
+	@tools/make-sbom build/crease >build/crease.spdx.json
+	@echo build/crease.spdx.json
 
 clean:
 	rm -rf build demo
