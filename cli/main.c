@@ -13,8 +13,9 @@ const command commands[] = {
     {"filter", FOR_FILTER, "filter CLOUD -o FILE [OPTIONS]", "take noise off a cloud, edges kept",
         "Finds outliers, and moves every other point onto the surface that the points on its own "
         "side of any edge suggest. Nothing needs to be set.\n\n"
-        "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL or OFF file; - is standard input.\n"
-        "What FILE gets depends on its extension: .ply .xyz .txt .csv .asc .pts the filtered "
+        "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, LAS, OBJ, STL or OFF file; - is standard "
+        "input.\n"
+        "What FILE gets depends on its extension: .ply .pcd .xyz .txt .csv .asc .pts the filtered "
         "cloud, all points in their order, with the field `outlier` (1 or 0; outliers stay where "
         "they are); .png .svg .pdf a figure; .html a page to turn and pick points in; .json the "
         "report.",
@@ -22,8 +23,10 @@ const command commands[] = {
     {"detect", FOR_DETECT, "detect CLOUD -o FILE [OPTIONS]", "find the sharp edges of a cloud",
         "Finds the smooth regions of a cloud, the creases in which they meet at an angle, and the "
         "points that lie on them. Nothing needs to be set.\n\n"
-        "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL or OFF file; - is standard input.\n"
-        "What FILE gets depends on its extension: .ply .xyz .txt .csv .asc .pts the cloud with the "
+        "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, LAS, OBJ, STL or OFF file; - is standard "
+        "input.\n"
+        "What FILE gets depends on its extension: .ply .pcd .xyz .txt .csv .asc .pts the cloud "
+        "with the "
         "fields `variance` (the score: see --detector), `feature` (1 on a sharp edge) and "
         "`region` (number of the smooth region, -1 for outliers), all points in their order; .png "
         ".svg .pdf a figure; .html a page to turn and pick points in; .json the report.",
@@ -34,7 +37,8 @@ const command commands[] = {
         "region, edges where they meet, closed where the points allow. Fits one bicubic B-spline "
         "sheet, sharp along the edges that the data show, to a cloud in which no surface lies over "
         "another. Nothing needs to be set.\n\n"
-        "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL or OFF file; - is standard input.\n"
+        "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, LAS, OBJ, STL or OFF file; - is standard "
+        "input.\n"
         "What FILE gets depends on its extension: .step .stp .iges .igs .brep the CAD model; .obj "
         ".stl .ply .glb a mesh; .png .svg .pdf a figure; .html a page to turn and pick points in; "
         ".json the report.",
@@ -43,15 +47,18 @@ const command commands[] = {
         "tell how far a cloud is from a CAD model",
         "Measures the distance of every point from the nearest face of a CAD model. Both must lie "
         "in the same place, and be in the same unit.\n\n"
-        "MODEL is a STEP, IGES or BREP file; CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, "
+        "MODEL is a STEP, IGES or BREP file; CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, LAS, "
+        "OBJ, "
         "STL or OFF file; - is standard input.\n"
-        "What FILE gets depends on its extension: .ply .xyz .txt .csv .asc .pts the cloud with the "
+        "What FILE gets depends on its extension: .ply .pcd .xyz .txt .csv .asc .pts the cloud "
+        "with the "
         "fields `deviation` (positive outside) and `face` (number of the nearest face, from 0, in "
         "the order of MODEL); .png .svg .pdf a figure; .html a page to turn and pick points in; "
         ".json the report, with mean, rms, 95 % and greatest deviation for every face.",
         compare_run},
     {"info", FOR_INFO, "info FILE [OPTIONS]", "tell what a cloud or a CAD model holds",
-        "Reads a cloud (PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL, OFF) or a CAD model (STEP, "
+        "Reads a cloud (PLY, PCD, XYZ, TXT, CSV, ASC, PTS, LAS, OBJ, STL, OFF) or a CAD model "
+        "(STEP, "
         "IGES, BREP) and tells what it holds.",
         info_run},
     {"example", FOR_EXAMPLE, "example cube|sample|panel|bracket -o FILE [OPTIONS]",
@@ -59,7 +66,7 @@ const command commands[] = {
         "Makes a cloud: the paper's cube (6146 points), the paper's sample of 51 points at one "
         "edge, a scanned panel with noise, outliers and an edge along no axis, or a bracket "
         "scanned from all around.\n\n"
-        "FILE is .ply .xyz .txt .csv .asc or .pts.",
+        "FILE is .ply .pcd .xyz .txt .csv .asc or .pts.",
         example_run},
     {"reproduce", FOR_REPRODUCE, "reproduce -o FOLDER [OPTIONS]",
         "rebuild the experiment of the paper",

@@ -17,7 +17,7 @@ static const struct {
     const char *extensions[8];
 } kinds[] = {
     {TARGET_CAD, {".step", ".stp", ".iges", ".igs", ".brep"}},
-    {TARGET_CLOUD, {".ply", ".xyz", ".txt", ".csv", ".asc", ".pts"}},
+    {TARGET_CLOUD, {".ply", ".pcd", ".xyz", ".txt", ".csv", ".asc", ".pts"}},
     {TARGET_MESH, {".ply", ".obj", ".stl", ".glb"}},
     {TARGET_LINES, {".ply", ".obj", ".csv"}},
     {TARGET_FIGURE, {".png", ".svg", ".pdf"}},

@@ -237,9 +237,9 @@ typedef struct crease_read_options {
 } crease_read_options;
 
 CREASE_API crease_read_options crease_read_options_default(void);
-/** Reads a cloud: PLY, PCD, XYZ / TXT / CSV / ASC / PTS, or the vertices of OBJ, STL, OFF. The
- * format is found by signature first, by the file name's extension second. "-" is standard input.
- * Errors: NO_SUCH_FILE, CANNOT_READ, FORMAT, TRUNCATED, VALUE, NO_MEMORY. */
+/** Reads a cloud: PLY, PCD, XYZ / TXT / CSV / ASC / PTS, LAS (not LAZ), or the vertices of OBJ,
+ * STL, OFF. The format is found by signature first, by the file name's extension second. "-" is
+ * standard input. Errors: NO_SUCH_FILE, CANNOT_READ, FORMAT, TRUNCATED, VALUE, NO_MEMORY. */
 CREASE_API crease_status crease_cloud_read(crease_context *context, const char *path,
     const crease_read_options *options, crease_cloud **out);
 /** Name of the format of the file ("PLY", "STEP", ...), by signature first, or NULL. */

@@ -17,6 +17,7 @@ crease_reader crease_xyz_read;
 crease_reader crease_obj_read;
 crease_reader crease_stl_read;
 crease_reader crease_off_read;
+crease_reader crease_las_read;
 
 /* A binary STL has no signature, but its size follows from its count of triangles. */
 bool crease_stl_is_binary(const char *head, size_t head_size, size_t file_size);

@@ -17,7 +17,8 @@ crease_status crease_source_read(crease_context *context, const crease_source *s
         return format->read(context, source, options, out);
     if (format)
         return crease_fail(context, CREASE_ERROR_FORMAT,
-            "%s: is %s, not a cloud; give points as PLY, PCD, XYZ, TXT, CSV, ASC, PTS, OBJ, STL or "
+            "%s: is %s, not a cloud; give points as PLY, PCD, XYZ, TXT, CSV, ASC, PTS, LAS, OBJ, "
+            "STL or "
             "OFF",
             source->name, format->description);
     return crease_fail(context, CREASE_ERROR_FORMAT,

@@ -23,7 +23,7 @@ expect 2 "whole number from 4 to 256" detect cloud.ply -K 16.5
 expect 2 "number from 0 to 100" example panel --noise 101
 expect 2 "number from 0 to 100" example panel --noise nan
 expect 2 "number from 25 to 256" filter cloud.ply --window 24
-expect 2 ".ply .xyz" filter cloud.ply -o out.step
+expect 2 ".ply .pcd .xyz" filter cloud.ply -o out.step
 expect 3 "cloud.ply" filter cloud.ply -o out.ply
 expect 2 "no option" detect cloud.ply --tolerance 0.1
 expect 2 "number from 0 to 1" detect cloud.ply --false-discovery-rate 1.1
@@ -38,7 +38,7 @@ expect 2 "form a rotation" fit cloud.ply --rotation 1,0,0,0,1,0,0,0,2
 expect 2 "0 to 18446744073709551615" fit cloud.ply --seed -1
 expect 2 "one argument too many" detect a.ply b.ply
 expect 2 "the file to read" detect
-expect 2 ".ply .xyz" detect cloud.ply -o out.doc
+expect 2 ".ply .pcd .xyz" detect cloud.ply -o out.doc
 expect 2 ".step" fit cloud.ply -o out.doc
 expect 1 "the folder cannot be written" fit cloud.ply -o nowhere/out.step
 expect 3 "cloud.ply" detect cloud.ply
@@ -55,4 +55,6 @@ for shell in bash zsh fish; do
     fi
 done
 expect 2 "bash, zsh or fish" --completion tcsh
+# The page of the options is what the program says; tools/make-options-page renews it.
+check "docs/options.md is the program's" sh -c "'$here/../../tools/make-options-page' '$crease' | cmp - '$here/../../docs/options.md'"
 finish
