@@ -310,6 +310,24 @@ static double least_gain(double bend)
     return fmin(10.0, fmax(2.0, 10.0 - 8.0 * (degrees - 30.0) / 15.0));
 }
 
+/* Whether most points beside a chain lie on an edge that the scanner has rounded: that they turn
+ * fast there has been seen already, and no profile shows a kink any more. */
+static bool is_rounded(const crease_survey *survey, const crease_chain *chain, uint32_t *found)
+{
+    const uint8_t *const rounded = survey->regions->rounded;
+    size_t all = 0, on = 0;
+    for (size_t i = 0; i < chain->count; i++) {
+        size_t count = 0;
+        crease_tree_within(survey->tree, chain->points + 3 * i, WIDTH / 2.0 * survey->spacing,
+            BALL_POINTS, found, &count);
+        count = count < BALL_POINTS ? count : BALL_POINTS;
+        all += count;
+        for (size_t k = 0; k < count; k++)
+            on += rounded[found[k]];
+    }
+    return 2 * on > all;
+}
+
 static void prune_some(void *user, size_t begin, size_t end, int worker)
 {
     const pruning *const run = user;
@@ -317,7 +335,9 @@ static void prune_some(void *user, size_t begin, size_t end, int worker)
         const crease_chain *const chain = &run->chains->items[i];
         const double bend = crease_chain_mean_bend(chain);
         run->keep[i] = true;
-        if (bend >= acos(-1.0) / 3.0)
+        const uint8_t *const rounded = run->survey->regions->rounded;
+        if (rounded ? is_rounded(run->survey, chain, run->workers[worker].found)
+                    : bend >= acos(-1.0) / 3.0)
             continue;
         const struct verdict verdict = judge(run->survey, chain, &run->workers[worker]);
         run->keep[i] = verdict.gain >= least_gain(bend) && verdict.bend >= run->survey->least_bend;

@@ -26,6 +26,7 @@ enum {
 /* Lengths in spacings. */
 static const double STEP = 0.5;
 static const double SEED_REACH = 2.5;    /* and two sigma */
+static const double BLUR_REACH = 3.0;    /* more where the scanner has rounded the edges */
 static const double SEED_DISTANCE = 0.6; /* a seed this near supports the chain */
 static const double SEED_CLAIM = 1.0;    /* a chain uses up the seeds within */
 static const double LONGEST_GAP = 4.0;
@@ -127,7 +128,8 @@ static void sow(void *user, size_t begin, size_t end, int worker)
     (void)worker;
     const struct sowing *const run = user;
     const crease_regions *const regions = run->survey->regions;
-    const double reach = SEED_REACH * run->survey->spacing + 2.0 * run->survey->sigma;
+    const double blur = regions->rounded ? BLUR_REACH : 0.0;
+    const double reach = (SEED_REACH + blur) * run->survey->spacing + 2.0 * run->survey->sigma;
     for (size_t i = begin; i < end; i++) {
         const struct link *const from = &run->links[i];
         struct seed *const to = &run->seeds[i];

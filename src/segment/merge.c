@@ -14,6 +14,7 @@
 enum { LEAST_LINKS = 3, SIGN_POINTS = 32 };
 
 static const double least_agreement = 0.8; /* mean |cosine| between the models of large regions */
+static const double waves_agree = 0.94;    /* the same for the waves of one face: 20 degrees */
 static const uint32_t NONE = UINT32_MAX;
 
 /* A link between two regions, at a point. */
@@ -32,8 +33,10 @@ typedef struct region_pair {
 
 typedef struct merging {
     crease_segmentation *seg;
-    size_t sample; /* points of each region that are looked at */
-    size_t large;  /* more points: a region whose surface at the border says what it is */
+    size_t sample;    /* points of each region that are looked at */
+    size_t large;     /* more points: a region whose surface at the border says what it is */
+    double tolerance; /* mean square residual, in square sigmas, that one model may leave on each of
+                         two regions, or 0: it must be the likelier */
     region_pair *pairs;
     size_t pair_count;
     size_t *pending; /* pairs whose gains are to be worked out */
@@ -157,6 +160,8 @@ static crease_sample part_of(const crease_sample *sample, size_t begin, size_t e
 static bool worth_trying(const merging *run, const region_pair *pair)
 {
     const size_t low = run->sizes[pair->low], high = run->sizes[pair->high];
+    if (run->tolerance > 0.0)
+        return pair->links >= LEAST_LINKS && pair->parallel >= waves_agree * pair->links;
     return pair->links >= LEAST_LINKS &&
         (pair->parallel >= least_agreement * pair->links ||
             (low < high ? low : high) <= run->large);
@@ -170,6 +175,36 @@ static void keep_model(merging *run, region_pair *pair, const crease_model *mode
         pair->gain = gain;
     else
         atomic_store(&run->seg->no_memory, true);
+}
+
+/* Mean of the squared residuals of a sample in sigmas, each cut. */
+static double mean_square(const merging *run, const crease_model *model, const crease_sample *of)
+{
+    const double count = (double)of->count;
+    const double cost = crease_fit_cost(model, of, run->seg->sigma);
+    return (cost - model->parameter_count * log(count)) / count;
+}
+
+/* How much less than the tolerance a model leaves on either region. */
+static double within_tolerance(const merging *run, const crease_model *model,
+    const crease_sample *low, const crease_sample *high)
+{
+    return run->tolerance - fmax(mean_square(run, model, low), mean_square(run, model, high));
+}
+
+/* The simplest models only, planes for planes: a rich one explains any two regions that meet
+ * smoothly. */
+static void find_tolerable(merging *run, crease_fitter *fitter, const crease_sample *low,
+    const crease_sample *high, const crease_model *big, region_pair *pair)
+{
+    const crease_model *const models = run->seg->models;
+    const bool flat = models[pair->low].type == CREASE_REGION_PLANE &&
+        models[pair->high].type == CREASE_REGION_PLANE;
+    const crease_fit_level level = flat ? CREASE_LEVEL_PLANE : CREASE_LEVEL_ROUND;
+    keep_model(run, pair, big, within_tolerance(run, big, low, high));
+    if (!(pair->gain > 0.0) &&
+        crease_fit_choose(fitter, &fitter->sample, CREASE_RULE_BAYES, level, big, INFINITY))
+        keep_model(run, pair, &fitter->best, within_tolerance(run, &fitter->best, low, high));
 }
 
 /* A small region next to one more than twice its size first tries that one's model as it is. */
@@ -191,6 +226,10 @@ static void find_gain(merging *run, region_pair *pair, crease_fitter *fitter)
     const size_t sizes[2] = {run->sizes[pair->low], run->sizes[pair->high]};
     const size_t small = sizes[0] < sizes[1] ? sizes[0] : sizes[1];
     const crease_model *const big = &seg->models[sizes[0] >= sizes[1] ? pair->low : pair->high];
+    if (run->tolerance > 0.0) {
+        find_tolerable(run, fitter, &low, &high, big, pair);
+        return;
+    }
     const double unchanged = apart - crease_fit_cost(big, both, seg->sigma);
     if (unchanged > 0.0 && sizes[0] + sizes[1] > 3 * small)
         keep_model(run, pair, big, unchanged);
@@ -347,27 +386,38 @@ static crease_status allocate(merging *run)
     return CREASE_OK;
 }
 
-crease_status crease_merge(crease_segmentation *seg, size_t sample, size_t large, size_t *merged)
+static crease_status merge(merging *run, size_t *merged)
 {
-    merging run = {.seg = seg, .sample = sample, .large = large};
+    crease_segmentation *const seg = run->seg;
     *merged = 0;
-    crease_status status = allocate(&run);
+    crease_status status = allocate(run);
     if (status == CREASE_OK)
-        status = find_pairs(&run);
+        status = find_pairs(run);
     if (status == CREASE_OK)
-        status = merge_all(&run, merged);
+        status = merge_all(run, merged);
     if (status == CREASE_OK) {
-        label_chains(&run);
+        label_chains(run);
         status = crease_segmentation_list(seg);
     }
     if (status == CREASE_OK)
         crease_segmentation_compact(seg);
-    for (size_t i = 0; i < run.pair_count; i++)
-        crease_model_clear(&run.pairs[i].model);
-    free(run.pairs);
-    free(run.pending);
-    free(run.next);
-    free(run.last);
-    free(run.sizes);
+    for (size_t i = 0; i < run->pair_count; i++)
+        crease_model_clear(&run->pairs[i].model);
+    free(run->pairs);
+    free(run->pending);
+    free(run->next);
+    free(run->last);
+    free(run->sizes);
     return status;
+}
+
+crease_status crease_merge(crease_segmentation *seg, size_t sample, size_t large, size_t *merged)
+{
+    return merge(&(merging){.seg = seg, .sample = sample, .large = large}, merged);
+}
+
+crease_status crease_merge_within(crease_segmentation *seg, size_t sample, double tolerance)
+{
+    size_t merged;
+    return merge(&(merging){.seg = seg, .sample = sample, .tolerance = tolerance}, &merged);
 }

@@ -6,7 +6,9 @@
 
 #include "base/memory.h"
 #include "base/select.h"
+#include "cloud/blur.h"
 #include "cloud/cloud.h"
+#include "segment/excerpt.h"
 #include "segment/fillet.h"
 #include "segment/segmentation.h"
 #include "space/morton.h"
@@ -30,6 +32,8 @@ enum {
 static const double normals_agree = 20.0; /* degrees between a point's normal and its region's, on
                                              top of twice the error of the normals */
 static const double outlier_sigmas = 5.0;
+static const double waving = 1.5; /* mean square residual of a face, in square sigmas, that shared
+                                     errors leave at most */
 
 crease_regions_options crease_regions_options_default(void)
 {
@@ -105,6 +109,22 @@ static crease_status polish(crease_segmentation *seg)
     return status;
 }
 
+/* Where neighbouring points err alike, a face waves by more than independent errors explain, and
+ * falls apart. Its pieces are joined where a simple surface follows them about as well as that. */
+static crease_status join_waves(crease_segmentation *seg)
+{
+    if (!(seg->alike > 1.0))
+        return CREASE_OK;
+    crease_status status = crease_merge_within(seg, SAMPLE, waving);
+    if (status == CREASE_OK)
+        status = relabel(seg, LABEL_ROUNDS, &(progress){0});
+    if (status == CREASE_OK) {
+        crease_segmentation_compact(seg);
+        status = crease_refit(seg, LARGE_SAMPLE, true);
+    }
+    return status;
+}
+
 static crease_status run_stages(crease_segmentation *seg)
 {
     set_sigma(seg);
@@ -120,6 +140,8 @@ static crease_status run_stages(crease_segmentation *seg)
     }
     if (status == CREASE_OK)
         status = polish(seg);
+    if (status == CREASE_OK)
+        status = join_waves(seg);
     return status == CREASE_OK ? crease_fillets_find(seg) : status;
 }
 
@@ -138,23 +160,31 @@ static int compare_ranks(const void *a, const void *b)
 }
 
 /* Points far from the surface of their region, by the noise or by the region's own residuals where
- * these are larger, are no part of it. */
+ * these are larger, are no part of it. Those on rounded edges are beside it by nature. */
 static void set_outliers_aside(
     crease_regions *regions, const crease_segmentation *seg, size_t region, double *scratch)
 {
     const size_t begin = seg->first[region], size = crease_segmentation_size(seg, region);
     double gradient[3];
+    size_t known = 0, beside = 0;
     for (size_t m = 0; m < size; m++) {
         const size_t point = seg->members[begin + m];
-        scratch[m] =
+        if (regions->rounded && regions->rounded[point])
+            continue;
+        scratch[known++] =
             fabs(crease_model_distance(&seg->models[region], seg->points + 3 * point, gradient));
     }
     const double sigma = regions->noise_sigma;
-    const double scale = fmax(1.4826 * crease_select(scratch, size, size / 2), sigma);
+    const double median = known ? crease_select(scratch, known, known / 2) : 0.0;
+    const double scale = fmax(1.4826 * median, sigma);
     double squares = 0.0, cut = 0.0;
     size_t kept = 0;
     for (size_t m = 0; m < size; m++) {
         const size_t point = seg->members[begin + m];
+        if (regions->rounded && regions->rounded[point]) {
+            beside++;
+            continue;
+        }
         const double d =
             crease_model_distance(&seg->models[region], seg->points + 3 * point, gradient);
         if (fabs(d) > outlier_sigmas * scale) {
@@ -165,9 +195,9 @@ static void set_outliers_aside(
         cut += fmin(d * d / (sigma * sigma), CREASE_COST_CUT);
         kept++;
     }
-    regions->sizes[region] = kept;
-    regions->rms[region] = sqrt(squares / (double)kept);
-    seg->models[region].chi = cut / (double)kept;
+    regions->sizes[region] = kept + beside;
+    regions->rms[region] = kept ? sqrt(squares / (double)kept) : 0.0;
+    seg->models[region].chi = kept ? cut / (double)kept : 0.0;
 }
 
 /* Numbers the regions from large to small. */
@@ -251,6 +281,48 @@ static int links_of(int wanted, const crease_regions *regions)
     return wanted < others ? wanted : others;
 }
 
+/* Runs the stages on the points that the segmentation has by now. */
+static crease_status run(crease_segmentation *seg)
+{
+    memset(seg->labels, 0xff, seg->count * sizeof *seg->labels);
+    seg->members = crease_allocate(seg->context, seg->count, sizeof *seg->members);
+    return seg->members ? run_stages(seg) : CREASE_ERROR_NO_MEMORY;
+}
+
+/* Runs them on the points beside rounded edges, and continues the regions there. */
+static crease_status run_beside_edges(crease_segmentation *seg, const crease_regions *regions)
+{
+    crease_excerpt part;
+    const size_t least = (size_t)(0.6 * CREASE_BLUR_REACH * CREASE_BLUR_REACH);
+    crease_status status = crease_excerpt_take(
+        seg->context, seg->points, seg->count, seg->noise, regions->rounded, &part);
+    if (status == CREASE_OK) {
+        seg->count = part.count;
+        seg->points = part.points;
+        seg->neighbours = part.neighbours->indices;
+        seg->noise = &part.noise;
+        seg->labels = part.labels;
+        seg->least_points = least > seg->least_points ? least : seg->least_points;
+        status = run(seg);
+        free(seg->members);
+        seg->members = NULL;
+    }
+    if (status == CREASE_OK)
+        status = crease_excerpt_spread(
+            seg->context, &part, seg->models, regions->points, regions->count, regions->labels);
+    crease_excerpt_clear(&part);
+    seg->count = regions->count;
+    seg->points = regions->points;
+    seg->neighbours = regions->neighbours->indices;
+    seg->noise = regions->noise;
+    seg->labels = regions->labels;
+    if (status == CREASE_OK)
+        seg->members = crease_allocate(seg->context, seg->count, sizeof *seg->members);
+    if (status == CREASE_OK && !seg->members)
+        status = CREASE_ERROR_NO_MEMORY;
+    return status == CREASE_OK ? crease_segmentation_list(seg) : status;
+}
+
 static crease_status segment(
     crease_context *context, crease_regions *regions, const crease_regions_options *options)
 {
@@ -273,13 +345,9 @@ static crease_status segment(
     const double pi = acos(-1.0), window = CREASE_NOISE_NEIGHBOURS - 1;
     const double error = seg.sigma / (0.5 * seg.spacing * sqrt(window / pi) * sqrt(window));
     seg.least_cosine = cos(fmin(normals_agree * pi / 180.0 + 2.0 * error, pi / 3.0));
-    memset(seg.labels, 0xff, seg.count * sizeof *seg.labels);
-    crease_status status = CREASE_ERROR_NO_MEMORY;
-    seg.members = crease_allocate(context, seg.count, sizeof *seg.members);
-    if (seg.members)
-        status = crease_fitters_create(context, &seg.fitters);
+    crease_status status = crease_fitters_create(context, &seg.fitters);
     if (status == CREASE_OK)
-        status = run_stages(&seg);
+        status = regions->rounded ? run_beside_edges(&seg, regions) : run(&seg);
     if (status == CREASE_OK)
         status = take_models(context, regions, &seg);
     for (size_t r = 0; r < seg.region_count; r++)
@@ -289,6 +357,24 @@ static crease_status segment(
     free(seg.tried);
     free(seg.members);
     free(seg.first);
+    return status;
+}
+
+/* Marks the points on rounded edges, if the scanner has rounded them all. */
+static crease_status find_rounded(crease_context *context, crease_regions *regions)
+{
+    bool blurred = false;
+    if (!(regions->noise->alike > 1.0))
+        return CREASE_OK;
+    regions->rounded = crease_allocate(context, regions->count, sizeof *regions->rounded);
+    if (!regions->rounded)
+        return CREASE_ERROR_NO_MEMORY;
+    const crease_status status = crease_blur_find(
+        context, regions->points, regions->count, regions->noise, &blurred, regions->rounded);
+    if (!blurred) {
+        free(regions->rounded);
+        regions->rounded = NULL;
+    }
     return status;
 }
 
@@ -325,6 +411,8 @@ static crease_status find(crease_context *context, crease_regions *regions,
     if (status == CREASE_OK)
         status = crease_noise_estimate_from(
             context, regions->points, regions->neighbours, &regions->noise);
+    if (status == CREASE_OK)
+        status = find_rounded(context, regions);
     if (status != CREASE_OK)
         return status;
     crease_stage(context, "regions");
@@ -379,6 +467,7 @@ void crease_regions_free(crease_regions *regions)
     free(regions->points);
     free(regions->order);
     free(regions->labels);
+    free(regions->rounded);
     free(regions->models);
     free(regions->sizes);
     free(regions->rms);

@@ -26,6 +26,8 @@ struct crease_regions {
     double sigma;                  /* what residuals are weighed by: more than the noise where
                                       neighbouring points err alike */
     int32_t *labels;               /* number of the region, or CREASE_NO_REGION */
+    uint8_t *rounded; /* points on edges that the scanner has rounded, see cloud/blur.h;
+                         NULL where it has not */
     size_t region_count;
     crease_model *models;     /* region_count */
     size_t *sizes;            /* points of each region */

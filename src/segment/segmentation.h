@@ -93,6 +93,9 @@ crease_status crease_grow(crease_segmentation *seg);
  * with more than `large` points only when their models agree at the border. *merged: how many were
  * joined away. */
 crease_status crease_merge(crease_segmentation *seg, size_t sample, size_t large, size_t *merged);
+/* Joins neighbouring regions on each of which one simple model leaves a mean square residual within
+ * the tolerance, in square sigmas. */
+crease_status crease_merge_within(crease_segmentation *seg, size_t sample, double tolerance);
 /* Gives every point the label that its distances and its neighbours favour. *changed: labels. */
 crease_status crease_relabel(crease_segmentation *seg, int rounds, size_t *changed);
 /* Fits the models to their regions' interiors again. */
