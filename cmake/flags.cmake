@@ -23,3 +23,8 @@ if(CREASE_SANITIZE)
   target_compile_options(crease_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all -g -O1)
   target_link_options(crease_flags INTERFACE -fsanitize=address,undefined)
 endif()
+if(CREASE_FUZZ)
+  target_compile_options(crease_flags INTERFACE
+    -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -g -O1)
+  target_link_options(crease_flags INTERFACE -fsanitize=address,undefined)
+endif()
