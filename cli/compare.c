@@ -7,6 +7,7 @@
 #ifdef CREASE_HAVE_CAD
 #include "crease/crease_cad.h"
 #include "deviation.h"
+#include "facts.h"
 #include "input.h"
 #include "outputs.h"
 
@@ -22,6 +23,7 @@ typedef struct comparison {
     int32_t *faces;         /* numbers of those they are nearest to */
     double **of_face;       /* the deviations of the points of every face, one after the other */
     size_t *points_of_face; /* how many there are */
+    const cJSON *told;      /* what the report says of the faces */
 } comparison;
 
 static void comparison_free(comparison *c)
@@ -96,7 +98,7 @@ static crease_status label(crease_context *context, const crease_cloud *cloud, c
 
 /* --------------------------------------------------------------------------------- telling -- */
 
-static void describe_faces(report *r, const comparison *c)
+static const cJSON *describe_faces(report *r, const comparison *c)
 {
     static const char *const types[] = {
         "plane", "sphere", "cylinder", "cone", "torus", "free form"};
@@ -110,9 +112,10 @@ static void describe_faces(report *r, const comparison *c)
         deviation_describe(object, deviation_summarise(c->of_face[f], c->points_of_face[f]));
         cJSON_AddItemToArray(list, object);
     }
+    return list;
 }
 
-static void describe(report *r, const comparison *c, size_t count)
+static void describe(report *r, comparison *c, size_t count)
 {
     const deviation_summary all = deviation_summarise(c->deviations, count);
     cJSON *object = cJSON_AddObjectToObject(r->root, "deviation");
@@ -120,7 +123,7 @@ static void describe(report *r, const comparison *c, size_t count)
     size_t bare = 0;
     for (size_t f = 0; f < crease_cad_model_face_count(c->model); f++)
         bare += c->points_of_face[f] == 0;
-    describe_faces(r, c);
+    c->told = describe_faces(r, c);
     report_line(
         r, "%zu faces, %zu of them without a point", crease_cad_model_face_count(c->model), bare);
     report_line(r, "deviation: mean %+.4g, rms %.4g, 95 %% within %.4g, all within %.4g", all.mean,
@@ -133,7 +136,9 @@ static crease_status show(crease_context *context, const void *from, bool page, 
 {
     (void)page;
     const comparison *const c = from;
-    return crease_scene_add_mesh(context, scene, "model", crease_cad_model_mesh(c->model));
+    const crease_status status =
+        crease_scene_add_mesh(context, scene, "model", crease_cad_model_mesh(c->model));
+    return status == CREASE_OK ? facts_show(context, scene, c->told) : status;
 }
 
 static crease_status compare(

@@ -4,6 +4,7 @@
 /* crease detect: the sharp edges of a cloud, as curves and as labels of its points. */
 #include "cad.h"
 #include "command.h"
+#include "facts.h"
 #include "input.h"
 #include "outputs.h"
 #include "region.h"
@@ -21,7 +22,8 @@ typedef struct result {
     crease_scores *scores;
     crease_regions *regions;
     crease_network *network;
-    crease_cloud *cloud; /* with the fields */
+    crease_cloud *cloud;                  /* with the fields */
+    const cJSON *of_regions, *of_creases; /* what the report says of each */
 } result;
 
 static void result_free(result *all)
@@ -100,6 +102,22 @@ static void describe_regions(report *r, const crease_regions *regions)
         crease_regions_sigma(regions));
 }
 
+/* Each region: its surface, its points and how well the one explains the others. */
+static const cJSON *describe_each_region(report *r, const crease_regions *regions)
+{
+    cJSON *list = cJSON_AddArrayToObject(cJSON_GetObjectItem(r->root, "regions"), "each");
+    for (size_t i = 0; i < crease_regions_count(regions); i++) {
+        const crease_region region = crease_regions_at(regions, i);
+        cJSON *object = cJSON_CreateObject();
+        region_describe(object, &region);
+        cJSON_AddNumberToObject(object, "points", (double)region.point_count);
+        cJSON_AddNumberToObject(object, "rms", region.rms);
+        cJSON_AddNumberToObject(object, "chi", region.chi);
+        cJSON_AddItemToArray(list, object);
+    }
+    return list;
+}
+
 /* Rounded edges, which the regions' types do not tell from other cylinders. */
 static void describe_fillets(report *r, const crease_regions *regions)
 {
@@ -150,7 +168,7 @@ static void describe_corners(report *r, const crease_network *network)
     }
 }
 
-static void describe_network(report *r, const crease_network *network)
+static const cJSON *describe_network(report *r, const crease_network *network)
 {
     const size_t count = crease_network_count(network);
     const size_t corners = crease_network_corner_count(network);
@@ -170,6 +188,7 @@ static void describe_network(report *r, const crease_network *network)
             count, length, least, most, corners);
     else
         report_line(r, "creases: none");
+    return list;
 }
 
 static void describe_features(report *r, const settings *s, const result *all)
@@ -198,9 +217,11 @@ static crease_status show(crease_context *context, const void *from, bool page, 
     (void)page;
     const result *const all = from;
     const size_t count = crease_network_count(all->network);
-    return count == 0 ? CREASE_OK
-                      : crease_scene_add_curves(
-                            context, scene, "creases", crease_network_curves(all->network), count);
+    crease_status status = facts_show(context, scene, all->of_regions);
+    if (status == CREASE_OK && count > 0)
+        status = crease_scene_add_curves(
+            context, scene, "creases", crease_network_curves(all->network), count);
+    return status == CREASE_OK && count > 0 ? facts_show(context, scene, all->of_creases) : status;
 }
 
 static crease_status write_creases(
@@ -243,8 +264,9 @@ crease_status detect_run(crease_context *context, const settings *s, report *r)
         status = find(context, s, r, cloud, &all);
     if (status == CREASE_OK) {
         describe_regions(r, all.regions);
+        all.of_regions = describe_each_region(r, all.regions);
         describe_fillets(r, all.regions);
-        describe_network(r, all.network);
+        all.of_creases = describe_network(r, all.network);
         describe_features(r, s, &all);
         status = write_outputs(context, s, r, &all);
     }

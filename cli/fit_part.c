@@ -8,6 +8,7 @@
 #include "cad.h"
 #include "crease/crease_cad.h"
 #include "deviation.h"
+#include "facts.h"
 #include "outputs.h"
 #include "region.h"
 
@@ -21,8 +22,9 @@ typedef struct result {
     crease_part *part;
     const crease_curve **sharp; /* curves of the edges that are creases */
     size_t sharp_count;
-    crease_cloud *cloud;     /* the input with deviation and face */
-    crease_cloud *projected; /* the same on the part */
+    crease_cloud *cloud;              /* the input with deviation and face */
+    crease_cloud *projected;          /* the same on the part */
+    const cJSON *of_faces, *of_edges; /* what the report says of each */
 } result;
 
 static void result_free(result *all)
@@ -79,18 +81,31 @@ static crease_status make_clouds(
     return status == CREASE_OK && s->points ? project(context, cloud, &parts, all) : status;
 }
 
+/* What an edge is, and the name of its layer on the page. */
+typedef enum edge_kind { EDGE_SHARP, EDGE_SMOOTH, EDGE_FREE, EDGE_SEAM, EDGE_KINDS } edge_kind;
+
+static const char *const edge_names[EDGE_KINDS] = {"creases", "smooth edges", "borders", "seams"};
+
 /* Creases are the edges of two faces that meet at an angle. */
+static edge_kind kind_of(const crease_part *part, size_t index)
+{
+    const crease_part_edge edge = crease_part_edge_at(part, index);
+    if (edge.faces[1] == UINT32_MAX)
+        return EDGE_FREE;
+    if (edge.faces[0] == edge.faces[1])
+        return EDGE_SEAM;
+    return edge.smooth ? EDGE_SMOOTH : EDGE_SHARP;
+}
+
 static crease_status pick_sharp(crease_context *context, result *all)
 {
     const size_t count = crease_part_edge_count(all->part);
     all->sharp = calloc(count ? count : 1, sizeof *all->sharp);
     if (!all->sharp)
         return no_memory(context, count);
-    for (size_t i = 0; i < count; i++) {
-        const crease_part_edge edge = crease_part_edge_at(all->part, i);
-        if (!edge.smooth && edge.faces[0] != edge.faces[1] && edge.faces[1] != UINT32_MAX)
+    for (size_t i = 0; i < count; i++)
+        if (kind_of(all->part, i) == EDGE_SHARP)
             all->sharp[all->sharp_count++] = crease_part_curves(all->part)[i];
-    }
     return CREASE_OK;
 }
 
@@ -146,7 +161,7 @@ static cJSON *edge_object(const result *all, size_t index)
     return object;
 }
 
-static void describe_lists(report *r, const result *all)
+static void describe_lists(report *r, result *all)
 {
     cJSON *faces = cJSON_AddArrayToObject(r->root, "faces");
     for (size_t i = 0; i < crease_part_face_count(all->part); i++)
@@ -154,6 +169,8 @@ static void describe_lists(report *r, const result *all)
     cJSON *edges = cJSON_AddArrayToObject(r->root, "edges");
     for (size_t i = 0; i < crease_part_edge_count(all->part); i++)
         cJSON_AddItemToArray(edges, edge_object(all, i));
+    all->of_faces = faces;
+    all->of_edges = edges;
 }
 
 static void describe_kinds(report *r, const result *all)
@@ -167,7 +184,7 @@ static void describe_kinds(report *r, const result *all)
         text, crease_part_edge_count(all->part), all->sharp_count);
 }
 
-static void describe(report *r, const result *all)
+static void describe(report *r, result *all)
 {
     static const char *const states[] = {"solid", "shell", "faces"};
     static const char *const words[] = {
@@ -195,15 +212,45 @@ static void describe(report *r, const result *all)
 
 /* --------------------------------------------------------------------------------- writing -- */
 
+/* The edges of one kind, with what the report says of them. */
+static crease_status show_edges(
+    crease_context *context, const result *all, edge_kind kind, crease_scene *scene)
+{
+    const size_t most = crease_part_edge_count(all->part);
+    const crease_curve **curves = calloc(most ? most : 1, sizeof *curves);
+    size_t *edges = calloc(most ? most : 1, sizeof *edges), count = 0;
+    crease_status status = curves && edges ? CREASE_OK : no_memory(context, most);
+    for (size_t i = 0; i < most && status == CREASE_OK; i++)
+        if (kind_of(all->part, i) == kind) {
+            curves[count] = crease_part_curves(all->part)[i];
+            edges[count++] = i;
+        }
+    if (status == CREASE_OK && count > 0)
+        status = crease_scene_add_curves(context, scene, edge_names[kind], curves, count);
+    for (size_t i = 0; i < count && status == CREASE_OK; i++) {
+        const crease_fact number = {
+            .name = "edge", .numbers = {(double)edges[i]}, .number_count = 1};
+        status = crease_scene_describe(context, scene, i, &number, 1);
+        if (status == CREASE_OK)
+            status =
+                facts_show_one(context, scene, i, cJSON_GetArrayItem(all->of_edges, (int)edges[i]));
+    }
+    free(edges);
+    free(curves);
+    return status;
+}
+
+/* A figure shows the creases alone; the page every edge, to switch on and off. */
 static crease_status show(crease_context *context, const void *from, bool page, crease_scene *scene)
 {
-    (void)page;
     const result *const all = from;
-    const crease_status status =
+    crease_status status =
         crease_scene_add_mesh(context, scene, "faces", crease_part_mesh(all->part));
-    return status != CREASE_OK || all->sharp_count == 0
-        ? status
-        : crease_scene_add_curves(context, scene, "creases", all->sharp, all->sharp_count);
+    if (status == CREASE_OK)
+        status = facts_show(context, scene, all->of_faces);
+    for (int kind = 0; kind < (page ? EDGE_KINDS : EDGE_SHARP + 1) && status == CREASE_OK; kind++)
+        status = show_edges(context, all, (edge_kind)kind, scene);
+    return status;
 }
 
 static crease_status write_cad(crease_context *context, const void *from, const char *path)

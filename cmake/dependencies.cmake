@@ -5,10 +5,11 @@ pkg_check_modules(LAPACKE REQUIRED IMPORTED_TARGET lapacke)
 pkg_check_modules(OPENBLAS REQUIRED IMPORTED_TARGET openblas)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(CJSON REQUIRED IMPORTED_TARGET libcjson)
+pkg_check_modules(ZLIB REQUIRED IMPORTED_TARGET zlib)
 
 add_library(crease_outside INTERFACE)
 target_link_libraries(crease_outside INTERFACE
-  PkgConfig::LAPACKE PkgConfig::OPENBLAS PkgConfig::CAIRO PkgConfig::CJSON)
+  PkgConfig::LAPACKE PkgConfig::OPENBLAS PkgConfig::CAIRO PkgConfig::CJSON PkgConfig::ZLIB)
 if(OpenMP_C_FOUND)
   target_link_libraries(crease_outside INTERFACE OpenMP::OpenMP_C)
 endif()

@@ -5,7 +5,7 @@
 // the file that is there is the one that would be built.
 
 import { createHash } from 'node:crypto';
-import { readFile, writeFile, mkdir } from 'node:fs/promises';
+import { readFile, readdir, writeFile, mkdir } from 'node:fs/promises';
 import { build } from 'esbuild';
 
 const target = new URL('dist/viewer.html', import.meta.url);
@@ -38,6 +38,17 @@ function policy(script, style) {
   return `<meta http-equiv="Content-Security-Policy" content="${rules}">`;
 }
 
+/** What the page is built from, as one hash: tests/page/check_bundle.py takes it without node. */
+async function sources() {
+  const names = (await readdir(new URL('src/', import.meta.url))).sort().map((name) => `src/${name}`);
+  const hash = createHash('sha256');
+  for (const name of ['build.mjs', 'package-lock.json', ...names]) {
+    const bytes = await readFile(new URL(name, import.meta.url));
+    hash.update(`${name} ${bytes.length}\n`).update(bytes);
+  }
+  return hash.digest('hex');
+}
+
 function check(html) {
   for (const marker of ['<!--crease:title-->', '<!--crease:data-->'])
     if (html.split(marker).length !== 2) throw new Error(`${marker} must stand in the page exactly once`);
@@ -51,8 +62,8 @@ async function page() {
   const script = `${await licence()}${await bundle('src/main.js')}\n`;
   const style = `${await bundle('src/style.css')}\n`;
   checkScript(script);
-  const parts = { policy: policy(script, style), style, script };
-  const html = (await read('src/page.html')).replace(/@(policy|style|script)@/g, (_, name) => parts[name]);
+  const parts = { source: await sources(), policy: policy(script, style), style, script };
+  const html = (await read('src/page.html')).replace(/@(source|policy|style|script)@/g, (_, name) => parts[name]);
   check(html);
   return html;
 }

@@ -789,6 +789,21 @@ CREASE_API crease_status crease_scene_add_mesh(
 /** Adds curves, such as creases, as one layer. */
 CREASE_API crease_status crease_scene_add_curves(crease_context *context, crease_scene *scene,
     const char *name, const crease_curve *const *curves, size_t count);
+/** Something that is known of an item of a layer, such as the radius of a face. */
+typedef struct crease_fact {
+    const char *name;    /**< such as "radius"; "radius_error" is the standard error of "radius" */
+    const char *text;    /**< what it is in words; NULL: in numbers */
+    double numbers[8];   /**< one number, or the three of a place or a direction; what is not finite
+                              is not known */
+    size_t number_count; /**< how many of them are used */
+} crease_fact;
+
+/** Says what is known of an item of the layer added last: of the surface or curve with this number;
+ * of a cloud, of the points whose field `region` (or `face`) has this number; of surfaces added
+ * with their nets, of the surfaces. The page shows it where the item is picked. Copied; several
+ * calls for one item add up. Errors: ARGUMENT (no layer, more than 8 numbers), NO_MEMORY. */
+CREASE_API crease_status crease_scene_describe(crease_context *context, crease_scene *scene,
+    size_t item, const crease_fact *facts, size_t count);
 
 typedef struct crease_figure_options {
     int width, height;     /**< pixels (PNG) or points (SVG, PDF); default 1200 x 900 */

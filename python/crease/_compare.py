@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ._cloud import Cloud, Points, as_cloud
 from ._declarations import RegionType
 from ._deviation import Deviation, summarise
+from ._facts import deviation_facts
 from ._library import LIBRARY, require_cad
 from ._memory import Borrowed
 from ._part import Part
@@ -77,7 +78,10 @@ class Comparison(Seen):
         self.cloud._write_own(work, kind, path)
 
     def _layers(self) -> Layers:
-        return Layers("compare", cloud=self.cloud, mesh=self.mesh._handle, colour_by="deviation")
+        return Layers("compare", cloud=self.cloud, mesh=self.mesh._handle, colour_by="deviation",
+                      of_faces=[{"type": face.type.replace("freeform", "free form"),
+                                 "area": face.area, "points": face.points,
+                                 **deviation_facts(face.deviation)} for face in self.faces])
 
 
 def _triangles(work: Work, model: Model) -> tuple[Mesh, list[tuple[str, float]]]:

@@ -197,6 +197,11 @@ class MeshFoot(Structure):
     _fields_ = [("point", c_double * 3), ("distance", c_double), ("triangle", c_uint32)]
 
 
+class Fact(Structure):
+    _fields_ = [("name", c_char_p), ("text", c_char_p), ("numbers", c_double * 8),
+                ("number_count", c_size_t)]
+
+
 class FigureOptions(Structure):
     _fields_ = [("width", c_int), ("height", c_int), ("azimuth", c_double),
                 ("elevation", c_double), ("colour_by", c_char_p), ("axes", c_bool)]
@@ -349,6 +354,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "crease_scene_add_surfaces": (c_int, _object, _object, c_char_p, _numbers, c_size_t, c_bool),
     "crease_scene_add_mesh": (c_int, _object, _object, c_char_p, _object),
     "crease_scene_add_curves": (c_int, _object, _object, c_char_p, _numbers, c_size_t),
+    "crease_scene_describe": (c_int, _object, _object, c_size_t, POINTER(Fact), c_size_t),
     "crease_figure_options_default": (FigureOptions,),
     "crease_figure_write": (c_int, _object, _object, POINTER(FigureOptions), c_char_p),
     "crease_page_write": (c_int, _object, _object, c_char_p),

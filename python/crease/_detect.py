@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ._cloud import Cloud, Points, as_cloud
 from ._declarations import Detector, RegionType
+from ._facts import Facts, surface_facts
 from ._library import LIBRARY
 from ._memory import Handle, addresses, borrowed, view
 from ._options import choose, fill
@@ -175,7 +176,20 @@ class Detection(Seen):
 
     def _layers(self) -> Layers:
         return Layers("detect", cloud=self.cloud, colour_by="region",
-                      curves=[crease.curve._handle for crease in self.creases])
+                      curves=[crease.curve._handle for crease in self.creases],
+                      of_regions=[_region_facts(region) for region in self.regions],
+                      of_curves=[_crease_facts(crease) for crease in self.creases])
+
+
+def _region_facts(region: Region) -> Facts:
+    return {**surface_facts(region.type, region.parameters), "points": region.points,
+            "rms": region.rms, "chi": region.chi}
+
+
+def _crease_facts(crease: Crease) -> Facts:
+    return {"regions": crease.regions, "closed": crease.closed, "length": crease.length,
+            "angle": crease.angle, "angle_error": crease.angle_error,
+            "position_error": crease.position_error}
 
 
 def detect(points: Points, *, detector: Literal["bootstrap", "jackknife", "variation",

@@ -17,6 +17,7 @@ from ._cloud import Cloud
 from ._declarations import NONE, PartOptions, PartState, RegionsOptions
 from ._detect import Region, regions_of, write_curves
 from ._deviation import Deviation, summarise
+from ._facts import Facts, deviation_facts, surface_facts
 from ._library import LIBRARY, require_cad
 from ._memory import Borrowed, Handle, borrowed, view
 from ._seen import Layers, Seen
@@ -167,7 +168,18 @@ class Part(Seen):
 
     def _layers(self) -> Layers:
         return Layers("fit", cloud=self.cloud, mesh=self.mesh._handle, colour_by="deviation",
-                      curves=[edge.curve._handle for edge in self.creases])
+                      curves=[edge.curve._handle for edge in self.creases],
+                      of_faces=[_face_facts(face) for face in self.faces],
+                      of_curves=[_edge_facts(edge) for edge in self.creases])
+
+
+def _face_facts(face: Face) -> Facts:
+    return {**surface_facts(face.region.type, face.region.parameters), "area": face.area,
+            "points": face.points, **deviation_facts(face.deviation)}
+
+
+def _edge_facts(edge: Edge) -> Facts:
+    return {"faces": edge.faces, "length": edge.length, "angle": edge.angle}
 
 
 def build_part(work: Work, cloud: Cloud, splitting: RegionsOptions, options: PartOptions) -> Part:

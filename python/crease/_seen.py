@@ -12,6 +12,7 @@ from ctypes import byref
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Sequence
 
+from ._facts import Facts, describe
 from ._library import LIBRARY
 from ._memory import Handle, Held, addresses
 from ._options import fill
@@ -37,14 +38,19 @@ class Layers:
     mesh: Held | None = None
     curves: Sequence[Held] = field(default_factory=list)
     colour_by: str | None = None
+    of_regions: Sequence[Facts] = ()  #: what is known of the points with each number in `region`
+    of_faces: Sequence[Facts] = ()  #: of the mesh's faces
+    of_curves: Sequence[Facts] = ()
 
 
 def _scene(work: Work, layers: Layers, page: bool) -> Handle:
     scene = work.make("scene", "crease_scene_create", layers.title.encode())
     if layers.mesh is not None:
         work.call("crease_scene_add_mesh", scene, b"faces", layers.mesh)
+        describe(work, scene, layers.of_faces)
     if layers.cloud is not None:
         work.call("crease_scene_add_cloud", scene, b"points", layers.cloud._handle)
+        describe(work, scene, layers.of_regions)
     if layers.surfaces:
         net = page or layers.control_points <= _MOST_NET_IN_FIGURE
         work.call("crease_scene_add_surfaces", scene, b"surface", addresses(layers.surfaces),
@@ -52,6 +58,7 @@ def _scene(work: Work, layers: Layers, page: bool) -> Handle:
     if layers.curves:
         work.call("crease_scene_add_curves", scene, b"creases", addresses(layers.curves),
                   len(layers.curves))
+        describe(work, scene, layers.of_curves)
     return scene
 
 

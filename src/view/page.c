@@ -2,16 +2,19 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* The page is the viewer with two places filled: its title, and the data. A JSON element describes
- * the scene; each array of numbers is an element of its own, base64 of little-endian values.
+ * the scene; each array of numbers is an element of its own, packed as view/pack.h says.
  * Coordinates are relative to the centre of the scene and divided by its scale, so that single
  * precision suffices. Everything is written as it comes: the page is never whole in memory. */
 #include "base/memory.h"
 #include "view/base64.h"
+#include "view/markup.h"
+#include "view/pack.h"
 #include "view/palette.h"
 #include "view/text.h"
 #include "view/viewer.h"
 #include "write/output.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,48 +24,11 @@ typedef struct page {
     const crease_scene *scene;
     crease_output *output;
     double lowest[3], highest[3], centre[3], scale;
-    unsigned next_part; /* number of the next array of numbers */
+    unsigned next_part;   /* number of the next array of numbers */
+    crease_status status; /* of the numbers */
 } page;
 
-/* ------------------------------------------------------------------------------------ text -- */
-
-/* Clean text within HTML. */
-static void write_html(crease_output *output, const char *text)
-{
-    for (; *text; text++)
-        if (strchr("<>&\"'", *text))
-            crease_output_format(output, "&#%d;", *text);
-        else
-            crease_output_bytes(output, text, 1);
-}
-
-/* Clean text as a JSON string that holds nothing an HTML parser could act upon. */
-static void write_string(crease_output *output, const char *text)
-{
-    crease_output_text(output, "\"");
-    for (; *text; text++)
-        if (strchr("<>&\"'\\", *text))
-            crease_output_format(output, "\\u%04x", (unsigned)*text);
-        else
-            crease_output_bytes(output, text, 1);
-    crease_output_text(output, "\"");
-}
-
-static void write_member(crease_output *output, const char *name, const char *text)
-{
-    crease_output_format(output, "\"%s\":", name);
-    write_string(output, text);
-}
-
-static void write_vector(crease_output *output, const char *name, const double v[3])
-{
-    crease_output_format(output, "\"%s\":", name);
-    for (int c = 0; c < 3; c++) {
-        crease_output_text(output, c ? "," : "[");
-        crease_output_double(output, v[c]);
-    }
-    crease_output_text(output, "]");
-}
+/* ------------------------------------------------------------------------------ description -- */
 
 static void write_colour(crease_output *output, crease_colour c)
 {
@@ -70,19 +36,10 @@ static void write_colour(crease_output *output, crease_colour c)
         (unsigned)lround(255 * c.green), (unsigned)lround(255 * c.blue));
 }
 
-/* ------------------------------------------------------------------------------ description -- */
-
 /* "name":"part-7", a part that write_parts() will write in the same order. */
 static void promise_part(page *p, const char *name)
 {
     crease_output_format(p->output, ",\"%s\":\"part-%u\"", name, p->next_part++);
-}
-
-static const char *type_name(crease_type type)
-{
-    static const char *const names[] = {
-        "int8", "uint8", "int16", "uint16", "int32", "uint32", "float32", "float32"};
-    return names[type];
 }
 
 static crease_status describe_field(page *p, const crease_field *field, size_t count)
@@ -93,9 +50,9 @@ static crease_status describe_field(page *p, const crease_field *field, size_t c
     if (!name)
         return CREASE_ERROR_NO_MEMORY;
     crease_output_text(p->output, "{");
-    write_member(p->output, "name", name);
+    crease_markup_member(p->output, "name", name);
     crease_output_format(p->output,
-        ",\"type\":\"%s\",\"map\":\"%s\",\"lowest\":", type_name(field->type),
+        ",\"type\":\"%s\",\"map\":\"%s\",\"lowest\":", crease_pack_of_type(field->type).name,
         range.map == CREASE_MAP_DIVERGING ? "diverging" : "sequential");
     crease_output_double(p->output, range.lowest);
     crease_output_text(p->output, ",\"highest\":");
@@ -128,6 +85,33 @@ static void describe_mesh(page *p, const crease_mesh *mesh)
     promise_part(p, "positions");
     promise_part(p, "normals");
     promise_part(p, "indices");
+    promise_part(p, "owners");
+}
+
+static void describe_curves(page *p, const crease_layer *layer)
+{
+    crease_output_format(p->output, ",\"curves\":%zu,\"begins\":[", layer->items);
+    for (size_t i = 0; i < layer->items; i++)
+        crease_output_format(p->output, i ? ",%" PRIu32 : "%" PRIu32, layer->begins[i]);
+    crease_output_text(p->output, "]");
+}
+
+/* [item, name, text or numbers] of everything that is known. */
+static void describe_facts(page *p, const crease_facts *facts)
+{
+    crease_output_text(p->output, ",\"facts\":[");
+    for (size_t i = 0; i < facts->count; i++) {
+        const crease_fact *fact = &facts->all[i].fact;
+        crease_output_format(p->output, i ? ",[%zu," : "[%zu,", facts->all[i].item);
+        crease_markup_string(p->output, fact->name);
+        crease_output_text(p->output, ",");
+        if (fact->text)
+            crease_markup_string(p->output, fact->text);
+        else
+            crease_markup_numbers(p->output, fact->numbers, fact->number_count);
+        crease_output_text(p->output, "]");
+    }
+    crease_output_text(p->output, "]");
 }
 
 static crease_status describe_layer(page *p, size_t index)
@@ -136,9 +120,9 @@ static crease_status describe_layer(page *p, size_t index)
     const crease_layer *layer = &p->scene->layers[index];
     crease_status status = CREASE_OK;
     crease_output_text(p->output, index ? ",{" : "{");
-    write_member(p->output, "kind", kinds[layer->kind]);
+    crease_markup_member(p->output, "kind", kinds[layer->kind]);
     crease_output_text(p->output, ",");
-    write_member(p->output, "name", layer->name);
+    crease_markup_member(p->output, "name", layer->name);
     crease_output_text(p->output, ",");
     write_colour(p->output, crease_palette_of_layer(p->scene, index));
     if (layer->cloud)
@@ -149,10 +133,11 @@ static crease_status describe_layer(page *p, size_t index)
         if (layer->kind == CREASE_LAYER_NET)
             crease_output_format(p->output, ",\"count\":%zu", layer->lines.node_count);
         if (layer->kind == CREASE_LAYER_CURVES)
-            crease_output_format(p->output, ",\"curves\":%zu", layer->items);
+            describe_curves(p, layer);
         promise_part(p, "nodes");
         promise_part(p, "links");
     }
+    describe_facts(p, &layer->facts);
     crease_output_text(p->output, "}");
     return status;
 }
@@ -175,17 +160,18 @@ static crease_status write_description(page *p)
 {
     crease_output *output = p->output;
     crease_output_text(output, "<script type=\"application/json\" id=\"crease-scene\">{");
-    write_member(output, "version", crease_version());
+    crease_markup_member(output, "version", crease_version());
     crease_output_text(output, ",");
-    write_member(output, "title", p->scene->title);
+    crease_markup_member(output, "title", p->scene->title);
     crease_output_text(output, ",");
-    write_vector(output, "centre", p->centre);
+    crease_output_text(output, "\"centre\":");
+    crease_markup_numbers(output, p->centre, 3);
     crease_output_text(output, ",\"scale\":");
     crease_output_double(output, p->scale);
-    crease_output_text(output, ",");
-    write_vector(output, "lowest", p->lowest);
-    crease_output_text(output, ",");
-    write_vector(output, "highest", p->highest);
+    crease_output_text(output, ",\"lowest\":");
+    crease_markup_numbers(output, p->lowest, 3);
+    crease_output_text(output, ",\"highest\":");
+    crease_markup_numbers(output, p->highest, 3);
     crease_output_text(output, ",\"maps\":{");
     write_map(p, "sequential", CREASE_MAP_SEQUENTIAL);
     crease_output_text(output, ",");
@@ -200,59 +186,60 @@ static crease_status write_description(page *p)
 
 /* ----------------------------------------------------------------------------------- numbers -- */
 
-static void begin_part(page *p, crease_base64 *encoder)
+/* Begins an array of its own; NULL, with the page's status set, when memory ran out. */
+static crease_pack *begin_part(page *p, crease_pack_form form)
 {
-    crease_output_format(
-        p->output, "<script type=\"application/octet-stream\" id=\"part-%u\">", p->next_part++);
-    crease_base64_begin(encoder, p->output);
+    crease_pack *pack = NULL;
+    crease_output_format(p->output,
+        "<script type=\"application/octet-stream\" id=\"part-%u\" data-form=\"%s\">",
+        p->next_part++, form.name);
+    if (p->status == CREASE_OK)
+        p->status = crease_pack_open(p->context, p->output, form, &pack);
+    return pack;
 }
 
-static void end_part(page *p, crease_base64 *encoder)
+static void end_part(page *p, crease_pack *pack)
 {
-    crease_base64_end(encoder);
+    crease_pack_close(pack);
     crease_output_text(p->output, "</script>\n");
 }
 
 static void write_positions(page *p, const double *points, size_t count)
 {
-    crease_base64 encoder;
-    begin_part(p, &encoder);
-    for (size_t i = 0; i < 3 * count; i++)
-        crease_base64_put_float(&encoder, (float)((points[i] - p->centre[i % 3]) / p->scale));
-    end_part(p, &encoder);
+    crease_pack *const pack = begin_part(p, crease_pack_lattice);
+    for (size_t i = 0; pack && i < 3 * count; i++)
+        crease_pack_put_coordinate(pack, (points[i] - p->centre[i % 3]) / p->scale);
+    end_part(p, pack);
 }
 
-static void write_floats(page *p, const double *values, size_t count)
+static void write_directions(page *p, const double *values, size_t count)
 {
-    crease_base64 encoder;
-    begin_part(p, &encoder);
-    for (size_t i = 0; i < count; i++)
-        crease_base64_put_float(&encoder, (float)values[i]);
-    end_part(p, &encoder);
+    crease_pack *const pack = begin_part(p, crease_pack_direction);
+    for (size_t i = 0; pack && i < 3 * count; i++)
+        crease_pack_put_coordinate(pack, values[i]);
+    end_part(p, pack);
 }
 
-static void write_indices(page *p, const uint32_t *indices, size_t count)
+static void write_indices(page *p, crease_pack_form form, const uint32_t *indices, size_t count)
 {
-    crease_base64 encoder;
-    begin_part(p, &encoder);
-    for (size_t i = 0; i < count; i++)
-        crease_base64_put(&encoder, indices[i], 4);
-    end_part(p, &encoder);
+    crease_pack *const pack = begin_part(p, form);
+    for (size_t i = 0; pack && i < count; i++)
+        crease_pack_put(pack, indices[i]);
+    end_part(p, pack);
 }
 
 static void write_field(page *p, const crease_field *field, size_t count)
 {
-    crease_base64 encoder;
-    begin_part(p, &encoder);
     const bool fraction = field->type >= CREASE_TYPE_FLOAT32;
-    for (size_t i = 0; i < count; i++) {
+    crease_pack *const pack = begin_part(p, crease_pack_of_type(field->type));
+    for (size_t i = 0; pack && i < count; i++) {
         const double value = crease_field_value(field, i);
         if (fraction)
-            crease_base64_put_float(&encoder, (float)value);
+            crease_pack_put_float(pack, (float)value);
         else
-            crease_base64_put(&encoder, (uint32_t)(int64_t)value, crease_type_size(field->type));
+            crease_pack_put(pack, (uint32_t)(int64_t)value);
     }
-    end_part(p, &encoder);
+    end_part(p, pack);
 }
 
 static void write_cloud(page *p, const crease_cloud *cloud)
@@ -265,34 +252,40 @@ static void write_cloud(page *p, const crease_cloud *cloud)
     }
 }
 
+static void write_mesh(page *p, const crease_mesh *mesh)
+{
+    const size_t vertices = crease_mesh_vertex_count(mesh);
+    const size_t triangles = crease_mesh_triangle_count(mesh);
+    write_positions(p, crease_mesh_vertices(mesh), vertices);
+    write_directions(p, crease_mesh_normals(mesh), vertices);
+    write_indices(p, crease_pack_triangles, crease_mesh_triangles(mesh), 3 * triangles);
+    write_indices(p, crease_pack_of_type(CREASE_TYPE_UINT32), crease_mesh_owners(mesh), triangles);
+}
+
 static void write_layer(page *p, const crease_layer *layer)
 {
     if (layer->cloud)
         write_cloud(p, layer->cloud);
-    if (layer->mesh) {
-        const crease_mesh *mesh = layer->mesh;
-        write_positions(p, crease_mesh_vertices(mesh), crease_mesh_vertex_count(mesh));
-        write_floats(p, crease_mesh_normals(mesh), 3 * crease_mesh_vertex_count(mesh));
-        write_indices(p, crease_mesh_triangles(mesh), 3 * crease_mesh_triangle_count(mesh));
-    }
+    if (layer->mesh)
+        write_mesh(p, layer->mesh);
     if (!layer->cloud) {
         write_positions(p, layer->lines.nodes, layer->lines.node_count);
-        write_indices(p, layer->lines.links, 2 * layer->lines.link_count);
+        write_indices(p, crease_pack_links, layer->lines.links, 2 * layer->lines.link_count);
     }
 }
 
 static crease_status write_data(page *p)
 {
     p->next_part = 0;
-    const crease_status status = write_description(p);
-    if (status != CREASE_OK)
-        return status;
+    p->status = write_description(p);
+    if (p->status != CREASE_OK)
+        return p->status;
     p->next_part = 0;
     for (size_t i = 0; i < p->scene->layer_count && !crease_output_failed(p->output); i++) {
         write_layer(p, &p->scene->layers[i]);
         crease_progress(p->context, (double)(i + 1) / (double)p->scene->layer_count);
     }
-    return CREASE_OK;
+    return p->status;
 }
 
 /* -------------------------------------------------------------------------------------- page -- */
@@ -313,7 +306,7 @@ static crease_status write_page(page *p)
     const size_t at_title = find_marker(title, 0), behind_title = at_title + strlen(title);
     const size_t at_data = find_marker(data, behind_title), behind_data = at_data + strlen(data);
     crease_output_bytes(p->output, crease_viewer_page, at_title);
-    write_html(p->output, p->scene->title[0] ? p->scene->title : "crease");
+    crease_markup_html(p->output, p->scene->title[0] ? p->scene->title : "crease");
     crease_output_bytes(p->output, crease_viewer_page + behind_title, at_data - behind_title);
     const crease_status status = write_data(p);
     crease_output_bytes(

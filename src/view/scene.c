@@ -32,6 +32,8 @@ static void clear_layer(crease_layer *layer)
     crease_cloud_free(layer->cloud);
     crease_mesh_free(layer->mesh);
     crease_polylines_free(&layer->lines);
+    crease_facts_free(&layer->facts);
+    free(layer->begins);
 }
 
 void crease_scene_free(crease_scene *scene)
@@ -170,9 +172,29 @@ crease_status crease_scene_add_curves(crease_context *context, crease_scene *sce
     crease_layer *layer = begin_layer(context, scene, CREASE_LAYER_CURVES, name, count);
     if (!layer)
         return CREASE_ERROR_NO_MEMORY;
-    for (size_t i = 0; status == CREASE_OK && i < count; i++)
+    layer->begins = crease_allocate(context, count, sizeof *layer->begins);
+    status = layer->begins ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+    for (size_t i = 0; status == CREASE_OK && i < count; i++) {
+        layer->begins[i] = (uint32_t)layer->lines.link_count;
         status = crease_polylines_add_curve(context, &layer->lines, curves[i]);
+    }
     return finish_layer(scene, status);
+}
+
+crease_status crease_scene_describe(crease_context *context, crease_scene *scene, size_t item,
+    const crease_fact *facts, size_t count)
+{
+    size_t index = scene->layer_count;
+    while (index > 0 && scene->layers[index - 1].kind == CREASE_LAYER_NET)
+        index--;
+    if (index == 0)
+        return crease_fail(context, CREASE_ERROR_ARGUMENT,
+            "scene: there is nothing to describe; add a cloud, surfaces or curves first");
+    for (size_t i = 0; i < count; i++)
+        if (facts[i].number_count > sizeof facts[i].numbers / sizeof *facts[i].numbers)
+            return crease_fail(context, CREASE_ERROR_ARGUMENT,
+                "scene: a fact of %zu numbers; give 8 at most", facts[i].number_count);
+    return crease_facts_add(context, &scene->layers[index - 1].facts, item, facts, count);
 }
 
 static void widen(

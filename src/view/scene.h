@@ -5,6 +5,7 @@
 #ifndef CREASE_VIEW_SCENE_H
 #define CREASE_VIEW_SCENE_H
 
+#include "view/facts.h"
 #include "view/polylines.h"
 
 typedef enum crease_layer_kind {
@@ -21,6 +22,8 @@ typedef struct crease_layer {
     crease_cloud *cloud;    /* points */
     crease_mesh *mesh;      /* surface */
     crease_polylines lines; /* net, curves, and lines of constant parameter on a surface */
+    uint32_t *begins;       /* of curves: the first link of each */
+    crease_facts facts;     /* of surfaces, curves, or points with the number in a field */
 } crease_layer;
 
 struct crease_scene {

@@ -131,12 +131,34 @@ class Browser:
         self.mouse("mouseReleased", *end)
         self.rest_frames()
 
-    def key(self, key, code=""):
+    def key(self, key, code="", shift=False):
         text = {"text": key} if len(key) == 1 else {}
+        number = {"Escape": 27, "Tab": 9, "Enter": 13}.get(key, 0)
         for kind in ("keyDown", "keyUp"):
-            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=code or key,
-                      **(text if kind == "keyDown" else {}))
+            self.call("Input.dispatchKeyEvent", type=kind, key=key, code=code or key, windowsVirtualKeyCode=number,
+                      modifiers=8 if shift else 0, **(text if kind == "keyDown" else {}))
         self.rest_frames()
+
+    def touch(self, kind, *fingers):
+        self.call("Input.dispatchTouchEvent", type=kind,
+                  touchPoints=[{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(fingers)])
+
+    def swipe(self, starts, ends):
+        """Moves fingers from starts to ends at the same time."""
+        self.touch("touchStart", *starts)
+        for i in range(1, 6):
+            self.touch("touchMove", *([a + (b - a) * i / 5 for a, b in zip(start, end)]
+                                      for start, end in zip(starts, ends)))
+        self.touch("touchEnd")
+        self.rest_frames()
+
+    def tap(self, x, y):
+        self.touch("touchStart", (x, y))
+        self.touch("touchEnd")
+        self.rest_frames()
+
+    def text(self, selector):
+        return self.evaluate(f"document.querySelector({json.dumps(selector)}).innerText")
 
     def picture(self, path=None):
         self.rest_frames()

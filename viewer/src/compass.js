@@ -4,14 +4,13 @@
 // A small cross in the corner that tells where x, y and z point.
 
 import { Vector3 } from 'three';
+import { theme } from './theme.js';
 
 const axes = [
   { name: 'x', direction: new Vector3(1, 0, 0), light: '#b3261e', dark: '#ff8a80' },
   { name: 'y', direction: new Vector3(0, 1, 0), light: '#1b7f3b', dark: '#7fe0a0' },
   { name: 'z', direction: new Vector3(0, 0, 1), light: '#1f5fbf', dark: '#8fb8ff' },
 ];
-
-const scheme = window.matchMedia('(prefers-color-scheme: dark)');
 
 export function drawCompass(canvas, camera) {
   const context = canvas.getContext('2d');
@@ -26,7 +25,7 @@ export function drawCompass(canvas, camera) {
     .map((axis) => ({ axis, tip: axis.direction.clone().transformDirection(camera.matrixWorldInverse) }))
     .sort((a, b) => a.tip.z - b.tip.z);
   for (const { axis, tip } of turned) {
-    context.strokeStyle = context.fillStyle = scheme.matches ? axis.dark : axis.light;
+    context.strokeStyle = context.fillStyle = theme.dark ? axis.dark : axis.light;
     context.globalAlpha = tip.z < -0.05 ? 0.55 : 1;
     context.beginPath();
     context.moveTo(half, half);

@@ -4,106 +4,14 @@
 // From the layers of the description to what three.js draws: one call for each kind of mark.
 
 import {
-  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, Group, LineBasicMaterial,
-  LinearFilter, LineSegments, Mesh, MeshLambertMaterial, Points, RGBAFormat, ShaderMaterial,
-  Vector2,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, Group, LineBasicMaterial, LineSegments, Mesh,
+  MeshLambertMaterial, SRGBColorSpace,
 } from 'three';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/addons/lines/LineSegmentsGeometry.js';
-import { colourMap, numbers } from './data.js';
-
-// A dot is a ball that a surface through its middle must not cut: its depth is that of its front.
-const vertexShader = `
-attribute float value;
-uniform float size;
-uniform float perPixel;
-varying float carried;
-void main() {
-  carried = value;
-  vec4 place = modelViewMatrix * vec4(position, 1.0);
-  gl_Position = projectionMatrix * place;
-  vec4 front = projectionMatrix * (place - vec4(0.0, 0.0, 0.5 * size * perPixel * place.z, 0.0));
-  gl_Position.z = front.z / front.w * gl_Position.w;
-  gl_PointSize = size;
-}`;
-
-// A value that is no number fails every comparison, also with itself.
-const fragmentShader = `
-uniform bool mapped;
-uniform vec2 range;
-uniform vec3 plain;
-uniform sampler2D map;
-varying float carried;
-void main() {
-  vec2 place = 2.0 * gl_PointCoord - 1.0;
-  float radius = dot(place, place);
-  if (radius > 1.0) discard;
-  vec3 colour = plain;
-  if (mapped) {
-    float t = clamp((carried - range.x) / (range.y - range.x), 0.0, 1.0);
-    bool finite = carried >= -3.0e38 && carried <= 3.0e38;
-    colour = finite ? texture2D(map, vec2(t * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb : vec3(0.6);
-  }
-  gl_FragColor = vec4(colour * (1.0 - 0.35 * radius * radius), 1.0);
-}`;
-
-function textureOf(bytes) {
-  const rgba = new Uint8Array(1024);
-  for (let i = 0; i < 256; i++) rgba.set([bytes[3 * i], bytes[3 * i + 1], bytes[3 * i + 2], 255], 4 * i);
-  const texture = new DataTexture(rgba, 256, 1, RGBAFormat);
-  texture.minFilter = texture.magFilter = LinearFilter;
-  texture.needsUpdate = true;
-  return texture;
-}
-
-/** Colours as the screen shows them: the shader writes them without conversion. */
-function screenColour(colour) {
-  const n = parseInt(colour.slice(1), 16);
-  return new Color().setRGB((n >> 16) / 255, ((n >> 8) & 255) / 255, (n & 255) / 255, '');
-}
-
-function pointsMaterial(colour) {
-  return new ShaderMaterial({
-    vertexShader,
-    fragmentShader,
-    uniforms: {
-      size: { value: 4 },
-      perPixel: { value: 0 },
-      mapped: { value: false },
-      range: { value: new Vector2(0, 1) },
-      plain: { value: screenColour(colour) },
-      map: { value: null },
-    },
-  });
-}
-
-/** A ring around the point that was picked, seen through everything. */
-export function ringOf(size) {
-  const ring = pointsOf(new Float32Array(3), '#ff2ec4');
-  const { material } = ring;
-  material.fragmentShader = `
-uniform vec3 plain;
-void main() {
-  float radius = length(2.0 * gl_PointCoord - 1.0);
-  if (radius > 1.0 || radius < 0.62) discard;
-  gl_FragColor = vec4(plain, 1.0);
-}`;
-  material.uniforms.size.value = size;
-  material.depthTest = false;
-  material.transparent = true;
-  ring.renderOrder = 10;
-  ring.visible = false;
-  return ring;
-}
-
-function pointsOf(positions, colour) {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(positions, 3));
-  const points = new Points(geometry, pointsMaterial(colour));
-  points.frustumCulled = false;
-  return points;
-}
+import { numbers } from './data.js';
+import { Dots } from './dots.js';
 
 function linesOf(positions, links, colour, opacity) {
   const geometry = new BufferGeometry();
@@ -112,29 +20,63 @@ function linesOf(positions, links, colour, opacity) {
   return new LineSegments(geometry, new LineBasicMaterial({ color: colour, transparent: opacity < 1, opacity }));
 }
 
-function thickLinesOf(positions, links, colour, width) {
-  const ends = new Float32Array(3 * links.length);
-  links.forEach((node, i) => ends.set(positions.subarray(3 * node, 3 * node + 3), 3 * i));
+/** The ends of links `first` to `end`, three coordinates each. */
+export function endsOf(positions, links, first = 0, end = links.length / 2) {
+  const ends = new Float32Array(6 * (end - first));
+  for (let i = 0, at = 2 * first; at < 2 * end; i++, at++)
+    for (let c = 0; c < 3; c++) ends[3 * i + c] = positions[3 * links[at] + c];
+  return ends;
+}
+
+/** How much nearer to the eye thick lines are than they should be, as a part of their distance: dots
+ * that lie on them are balls, and would hide them. */
+export const nearer = { value: 0 };
+
+export function thickLinesOf(ends, colour, width) {
   const geometry = new LineSegmentsGeometry().setPositions(ends);
-  return new LineSegments2(geometry, new LineMaterial({ color: colour, linewidth: width }));
+  const material = new LineMaterial({ color: colour, linewidth: width });
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.nearer = nearer;
+    shader.vertexShader = `uniform float nearer;\n${shader.vertexShader}`.replace('#include <logdepthbuf_vertex>',
+      `vec4 ahead = projectionMatrix * vec4(mvPosition.xyz * (1.0 - nearer), 1.0);
+      gl_Position.z = ahead.z / ahead.w * gl_Position.w;`);
+  };
+  return new LineSegments2(geometry, material);
+}
+
+/** The back of a surface is seen where a section opens a body: it is told from the front. */
+function showBacks(material) {
+  material.userData.inside = { value: 0 };
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.inside = material.userData.inside;
+    shader.fragmentShader = `uniform float inside;\n${shader.fragmentShader}`.replace('#include <color_fragment>',
+      '#include <color_fragment>\nif (!gl_FrontFacing) diffuseColor.rgb = mix(diffuseColor.rgb, vec3(0.52, 0.36, 0.24), inside);');
+  };
 }
 
 function surfaceOf(layer) {
   const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(numbers(layer.positions, 'float32'), 3));
-  geometry.setAttribute('normal', new BufferAttribute(numbers(layer.normals, 'float32'), 3));
-  geometry.setIndex(new BufferAttribute(numbers(layer.indices, 'uint32'), 1));
-  return new Mesh(geometry, new MeshLambertMaterial({
+  geometry.setAttribute('position', new BufferAttribute(numbers(layer.positions), 3));
+  geometry.setAttribute('normal', new BufferAttribute(numbers(layer.normals), 3));
+  geometry.setIndex(new BufferAttribute(numbers(layer.indices), 1));
+  const material = new MeshLambertMaterial({
     color: layer.colour, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1.5, polygonOffsetUnits: 2,
-  }));
+  });
+  showBacks(material);
+  return new Mesh(geometry, material);
 }
 
 /** Nets of more links are drawn in lines of one pixel. */
 const THICK_LINKS_MOST = 20000;
 
-/** Dots are smaller the more there are; in CSS pixels. */
-function dotSize(count) {
-  return Math.min(10, Math.max(2, 220 / Math.sqrt(count + 1)));
+/** [item, name, value] of the description as one list of [name, value] for each item. */
+function factsOf(list) {
+  const items = new Map();
+  for (const [item, name, value] of list) {
+    if (!items.has(item)) items.set(item, []);
+    items.get(item).push([name, value]);
+  }
+  return items;
 }
 
 class Layer {
@@ -142,7 +84,9 @@ class Layer {
     this.description = description;
     this.kind = description.kind;
     this.name = description.name;
+    this.facts = factsOf(description.facts);
     this.group = new Group();
+    this.materials = [];
   }
 
   get visible() { return this.group.visible; }
@@ -150,33 +94,85 @@ class Layer {
 
   add(object) {
     this.group.add(object);
+    if (!object.material.isShaderMaterial || object.material.isLineMaterial) this.materials.push(object.material);
     return object;
   }
+
+  /** The value of a fact of an item, or undefined. */
+  fact(item, name) {
+    return this.facts.get(item)?.find(([candidate]) => candidate === name)?.[1];
+  }
+
+  /** Keeps only what lies on the near side of these planes. */
+  cutBy(planes, cut) {
+    for (const material of this.materials) {
+      material.clippingPlanes = planes;
+      if (material.userData.inside) material.userData.inside.value = planes.length ? 1 : 0;
+    }
+    if (this.dots) this.dots.uniforms.cut.value = cut;
+  }
+}
+
+/** Fields whose integers name something: they get a colour each. */
+const GROUP_NAMES = /^(region|face|label|class|classification|segment|cluster|part|id)$/i;
+
+function fieldOf(description) {
+  const values = numbers(description.data);
+  const grouped = description.type !== 'float32' && GROUP_NAMES.test(description.name);
+  return { ...description, values, grouped, unit: description.name === 'deviation' ? 'length' : '' };
+}
+
+/** A coordinate of the points as a field, relative to nothing but the axes. */
+function heightOf(scene, positions, axis) {
+  const field = { name: `height ${'xyz'[axis]}`, type: 'float32', map: 'sequential', grouped: false, unit: 'length', made: true,
+    lowest: scene.lowest[axis], highest: scene.highest[axis] };
+  Object.defineProperty(field, 'values', { get() {
+    const values = new Float32Array(positions.length / 3);
+    for (let i = 0; i < values.length; i++) values[i] = scene.centre[axis] + scene.scale * positions[3 * i + axis];
+    Object.defineProperty(field, 'values', { value: values });
+    return values;
+  }, configurable: true });
+  return field;
 }
 
 /** A cloud: its points, and the fields that can colour them. */
 class PointsLayer extends Layer {
-  constructor(description) {
+  constructor(description, scene) {
     super(description);
     this.count = description.count;
-    this.positions = numbers(description.positions, 'float32');
-    this.fields = description.fields.map((field) => ({ ...field, values: numbers(field.data, field.type) }));
-    this.points = this.add(pointsOf(this.positions, description.colour));
-    this.dots = dotSize(this.count);
+    this.positions = numbers(description.positions);
+    this.fields = description.fields.map(fieldOf);
+    this.heights = [2, 0, 1].filter((axis) => scene.highest[axis] > scene.lowest[axis])
+      .map((axis) => heightOf(scene, this.positions, axis));
+    this.dots = new Dots(this.positions, description.colour);
+    this.add(this.dots.object);
   }
 
-  colourBy(name, range, map) {
-    const field = this.fields.find((candidate) => candidate.name === name);
-    const { geometry, material } = this.points;
-    material.uniforms.mapped.value = Boolean(field);
-    if (!field) return;
-    if (this.shown !== field) {
-      geometry.deleteAttribute('value');
-      geometry.setAttribute('value', new BufferAttribute(Float32Array.from(field.values), 1));
-      this.shown = field;
-    }
-    material.uniforms.range.value.set(range[0], range[1]);
-    material.uniforms.map.value = map;
+  /** The field that tells which item a point belongs to. */
+  get itemField() {
+    return this.fields.find(({ name }) => name === 'region') ?? this.fields.find(({ name }) => name === 'face');
+  }
+
+  /** Whether the range and the groups in force leave a point to be seen. */
+  keeps(index) {
+    const { mode, within, range } = this.dots.uniforms;
+    if (mode.value === 0) return true;
+    const value = this.shown.values[index];
+    if (mode.value === 2) return !this.hidden?.has(value);
+    return !within.value || (value >= range.value.x && value <= range.value.y);
+  }
+
+  colourBy(name, range, map, within, hidden) {
+    const field = [...this.fields, ...this.heights].find((candidate) => candidate.name === name);
+    const { uniforms } = this.dots;
+    uniforms.mode.value = !field ? 0 : field.grouped ? 2 : 1;
+    if (this.shown !== field) this.dots.setValues(field?.values);
+    this.shown = field;
+    uniforms.range.value.set(range[0], range[1]);
+    uniforms.map.value = map;
+    uniforms.within.value = within;
+    this.hidden = hidden.set;
+    uniforms.hidden.value = hidden.texture;
   }
 }
 
@@ -184,9 +180,35 @@ class SurfaceLayer extends Layer {
   constructor(description) {
     super(description);
     this.count = description.triangles;
+    this.owners = numbers(description.owners);
+    this.items = this.owners.reduce((most, owner) => Math.max(most, owner + 1), 0);
     this.mesh = this.add(surfaceOf(description));
-    this.lines = this.add(linesOf(
-      numbers(description.nodes, 'float32'), numbers(description.links, 'uint32'), '#3a4a68', 0.35));
+    const links = numbers(description.links);
+    if (links.length) this.lines = this.add(linesOf(numbers(description.nodes), links, '#3a4a68', 0.35));
+  }
+
+  /** The triangles of one item, as numbers of vertices. */
+  trianglesOf(item) {
+    const corners = this.mesh.geometry.index.array;
+    const found = [];
+    for (let i = 0; i < this.owners.length; i++)
+      if (this.owners[i] === item) found.push(corners[3 * i], corners[3 * i + 1], corners[3 * i + 2]);
+    return found;
+  }
+
+  /** Colours each item by colourOf(item), bytes; null: one colour for all. */
+  shade(colourOf) {
+    const { geometry, material } = this.mesh;
+    material.vertexColors = Boolean(colourOf);
+    material.color.set(colourOf ? '#ffffff' : this.description.colour);
+    material.needsUpdate = true;
+    if (!colourOf) return;
+    const colours = new Float32Array(geometry.attributes.position.array.length);
+    const corners = geometry.index.array;
+    const made = Array.from({ length: this.items }, (_, item) =>
+      new Color().setRGB(...colourOf(item).map((byte) => byte / 255), SRGBColorSpace).toArray());
+    for (let i = 0; i < corners.length; i++) colours.set(made[this.owners[(i / 3) | 0]], 3 * corners[i]);
+    geometry.setAttribute('color', new BufferAttribute(colours, 3));
   }
 }
 
@@ -194,13 +216,13 @@ class NetLayer extends Layer {
   constructor(description) {
     super(description);
     this.count = description.count;
-    const positions = numbers(description.nodes, 'float32');
-    const links = numbers(description.links, 'uint32');
+    const positions = numbers(description.nodes);
+    const links = numbers(description.links);
     this.add(links.length > THICK_LINKS_MOST
       ? linesOf(positions, links, description.colour, 1)
-      : thickLinesOf(positions, links, description.colour, 1.6));
-    this.points = this.add(pointsOf(positions, description.colour));
-    this.dots = Math.min(8, dotSize(this.count));
+      : thickLinesOf(endsOf(positions, links), description.colour, 1.6));
+    this.dots = new Dots(positions, description.colour, 8);
+    this.add(this.dots.object);
   }
 }
 
@@ -208,8 +230,27 @@ class CurvesLayer extends Layer {
   constructor(description) {
     super(description);
     this.count = description.curves;
-    this.thick = this.add(thickLinesOf(
-      numbers(description.nodes, 'float32'), numbers(description.links, 'uint32'), description.colour, 4));
+    this.items = description.curves;
+    this.positions = numbers(description.nodes);
+    this.links = numbers(description.links);
+    const quiet = /smooth|seam/.test(this.name);
+    this.thick = this.add(thickLinesOf(endsOf(this.positions, this.links), description.colour, quiet ? 1.6 : 3.5));
+    this.visible = !/seam/.test(this.name);
+  }
+
+  /** First and last link of a curve, the last excluded. */
+  linksOf(item) {
+    const { begins } = this.description;
+    return [begins[item], begins[item + 1] ?? this.links.length / 2];
+  }
+
+  /** The nodes of a curve in their order: three coordinates each, of the page. */
+  nodesOf(item) {
+    const [first, end] = this.linksOf(item);
+    const ends = endsOf(this.positions, this.links, first, end);
+    const nodes = [Array.from(ends.subarray(0, 3))];
+    for (let i = 3; i < ends.length; i += 6) nodes.push(Array.from(ends.subarray(i, i + 3)));
+    return nodes;
   }
 }
 
@@ -217,15 +258,5 @@ const classes = { points: PointsLayer, surface: SurfaceLayer, net: NetLayer, cur
 
 /** The layers of a scene, in its order. */
 export function layersOf(scene) {
-  return scene.layers.map((description) => new classes[description.kind](description));
-}
-
-/** The colour maps of a scene: bytes for the bar, a texture for the points. */
-export function mapsOf(scene) {
-  const maps = {};
-  for (const name of Object.keys(scene.maps)) {
-    const bytes = colourMap(scene, name);
-    maps[name] = { bytes, texture: textureOf(bytes) };
-  }
-  return maps;
+  return scene.layers.map((description) => new classes[description.kind](description, scene));
 }

@@ -5,122 +5,272 @@
 //
 //   state       'loading', then 'ready' or 'failed'
 //   message     why it failed
-//   drawings    how often the scene was drawn
+//   times       { unpacked, ready }: milliseconds since the page was asked for
+//   drawings    how often the scene was drawn; frames: the last times between two of them while it moved
+//   budget      how many points are drawn while it moves
 //   layers      [{ name, kind, count, visible }]
 //   colouring   { field, range }
-//   picked      { layer, index, position, values } of the point picked, or null
+//   picked      { kind, layer, item, position } of what is picked, of a point also { index, values }; or null
+//   tool        'pick' or 'measure'; measured: rows { name, value } of what is measured
+//   section     { on, axis, at }
 //   setVisible(layer, shown), colourBy(field), setRange([from, to]), look(view)
 //   spot(layer, point)   where a point is on the page: { x, y } in CSS pixels
+//   place(position)      the same for a place of the file
 
+import { Vector3 } from 'three';
+import { Card } from './card.js';
+import { Colouring, Shading } from './colouring.js';
+import { mapsOf } from './colours.js';
 import { drawCompass } from './compass.js';
-import { description } from './data.js';
-import { layersOf, mapsOf } from './layers.js';
+import { description, readNumbers } from './data.js';
+import { shapeOf } from './geometry.js';
+import { listenToKeys } from './keys.js';
+import { layersOf } from './layers.js';
+import { Measure } from './measure.js';
+import { Overlay } from './overlay.js';
 import { Panel } from './panel.js';
 import { pick } from './pick.js';
-import { Stage, views } from './stage.js';
-import { count, short } from './text.js';
+import { savePicture } from './picture.js';
+import { Section } from './section.js';
+import { Stage } from './stage.js';
+import { theme } from './theme.js';
+import { get } from './text.js';
 
-const canvas = document.getElementById('view');
-const hook = { state: 'loading', message: '', picked: null };
+const canvas = get('view');
+const hook = { state: 'loading', message: '', times: {} };
 window.crease = hook;
 
-/** The coordinates of a point, to the digits that single precision holds. */
-function positionOf(scene, layer, index) {
-  const decimals = Math.min(15, Math.max(0, 6 - Math.floor(Math.log10(scene.scale))));
-  return [0, 1, 2].map((c) =>
-    Number((scene.centre[c] + scene.scale * layer.positions[3 * index + c]).toFixed(decimals)));
+/** Says something to those who do not see it. */
+function say(text) {
+  get('status').textContent = text;
 }
 
-function choose(scene, stage, panel, found) {
-  if (!found) {
-    hook.picked = null;
-    stage.mark(null);
-    panel.showPicked(null);
-    return;
+class App {
+  constructor(scene) {
+    this.scene = scene;
+    this.tool = 'pick';
+    this.current = null;
+    const maps = mapsOf(scene);
+    const halfSize = scene.highest.map((high, c) => (high - scene.lowest[c]) / 2 / scene.scale);
+    this.stage = new Stage(canvas, halfSize, layersOf(scene));
+    this.overlay = new Overlay(this.stage);
+    this.card = new Card(scene, this.stage);
+    this.measure = new Measure(scene, this.overlay);
+    this.section = new Section(scene, this.stage, () => this.direction(), say);
+    this.panel = new Panel(scene, this.stage, say);
+    this.colouring = new Colouring(this.stage, maps, say);
+    this.shading = new Shading(this.stage, maps);
+    this.connect();
   }
-  const { layer, index } = found;
-  const position = positionOf(scene, layer, index);
-  const values = Object.fromEntries(layer.fields.map((field) => [field.name, field.values[index]]));
-  hook.picked = { layer: stage.layers.indexOf(layer), index, position, values };
-  stage.mark(layer.positions.subarray(3 * index, 3 * index + 3));
-  panel.showPicked([
-    [layer.name || 'points', `no. ${count(index)}`],
-    ...position.map((value, c) => ['xyz'[c], short(value, 15)]),
-    ...layer.fields.map((field) => [field.name, short(field.values[index], field.type === 'float32' ? 6 : 15)]),
-  ]);
+
+  connect() {
+    const compass = get('compass');
+    this.stage.afterDrawing = () => {
+      drawCompass(compass, this.stage.camera);
+      this.overlay.place();
+    };
+    this.stage.afterLayout = () => this.layOut();
+    this.panel.onLayers = () => this.section.outlines();
+    this.panel.onUnit = () => this.tellUnit();
+    theme.onChange(() => this.stage.refresh());
+    get('tool-pick').addEventListener('click', () => this.use('pick'));
+    get('tool-measure').addEventListener('click', () => this.use(this.tool === 'measure' ? 'pick' : 'measure'));
+    get('tool-section').addEventListener('click', () => this.section.toggle());
+    get('tool-picture').addEventListener('click', () => this.savePicture());
+    get('tool-help').addEventListener('click', () => this.help());
+    get('let-go').addEventListener('click', () => this.letGo());
+    this.listenToClicks();
+    listenToKeys(this);
+    this.layOut();
+  }
+
+  /** The small scale over the scene is for when the panel does not show it. */
+  layOut() {
+    get('key').hidden = !this.panel.folded || get('key').classList.contains('empty');
+  }
+
+  /** A click is a press and a release of one pointer at nearly the same place. */
+  listenToClicks() {
+    let pressed = null;
+    canvas.addEventListener('pointerdown', (event) => { pressed = event.isPrimary && event.button === 0 ? event : null; });
+    canvas.addEventListener('pointerup', (event) => {
+      const slack = event.pointerType === 'touch' ? 10 : 4;
+      if (!pressed || Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) > slack) return;
+      const frame = canvas.getBoundingClientRect();
+      this.pickAt(event.clientX - frame.left, event.clientY - frame.top, event.pointerType);
+    });
+  }
+
+  pickAt(x, y, pointer) {
+    const wanted = document.querySelector('#reach input:checked').value;
+    this.choose(pick(this.stage, x, y, pointer, wanted));
+  }
+
+  /** Coordinates of the file, to the digits that single precision holds. */
+  positionOf(place) {
+    const { centre, scale } = this.scene;
+    const decimals = Math.min(15, Math.max(0, 6 - Math.floor(Math.log10(scale))));
+    return place.toArray().map((v, c) => Number((centre[c] + scale * v).toFixed(decimals)));
+  }
+
+  choose(found) {
+    if (!found && this.tool === 'pick') this.letGo();
+    if (!found) return;
+    this.mark(found);
+    this.panel.makeRoom();
+    if (this.tool === 'measure') {
+      this.measured = this.measure.add(found);
+      this.card.measured(this.measure.picks, this.measured);
+    } else this.card.tell(found, this.positionOf(found.place));
+    say(get('picked').innerText);
+  }
+
+  mark(found) {
+    this.current = found;
+    this.stage.mark(found && found.kind !== 'edge' ? found.place.toArray() : null);
+    this.stage.emphasise(found && found.kind !== 'point' ? found.layer : null, found?.item);
+  }
+
+  /** Lets go of what is picked or measured; without that, of the tool. */
+  letGo() {
+    const held = this.current || this.measure.picks.length;
+    this.mark(null);
+    this.measure.clear();
+    this.measured = [];
+    if (this.tool === 'measure' && held) this.card.measured([], []);
+    else if (this.tool === 'measure') this.use('pick');
+    else this.card.hide();
+  }
+
+  use(tool) {
+    this.tool = tool;
+    for (const name of ['pick', 'measure']) get(`tool-${name}`).setAttribute('aria-pressed', String(name === tool));
+    canvas.classList.toggle('aim', tool === 'measure');
+    this.measure.clear();
+    this.measured = [];
+    this.mark(null);
+    this.card.hide();
+    if (tool === 'measure') {
+      this.panel.makeRoom();
+      this.card.measured([], []);
+      say('Measure: pick the first point, edge or face');
+    }
+  }
+
+  /** The next or previous face or edge, for those who do not point. */
+  step(kind, by) {
+    const all = this.stage.layers
+      .filter((layer) => layer.visible && (kind === 'face' ? layer.mesh : layer.links))
+      .flatMap((layer) => Array.from({ length: layer.items }, (_, item) => ({ layer, item })));
+    if (!all.length) return;
+    const at = all.findIndex(({ layer, item }) => layer === this.current?.layer && item === this.current?.item);
+    const { layer, item } = all[at < 0 ? (by > 0 ? 0 : all.length - 1) : (at + by + all.length) % all.length];
+    this.choose({ kind, layer, item, ...this.placeOn(layer, item) });
+  }
+
+  /** A place on an item, with its normal or tangent. */
+  placeOn(layer, item) {
+    if (layer.links) {
+      const nodes = layer.nodesOf(item).map((node) => new Vector3(...node));
+      const at = Math.floor((nodes.length - 1) / 2);
+      return { place: nodes[at].clone().lerp(nodes[at + 1], 0.5), tangent: nodes[at + 1].clone().sub(nodes[at]).normalize() };
+    }
+    const corners = layer.trianglesOf(item);
+    const p = layer.mesh.geometry.attributes.position;
+    const first = 3 * Math.floor(corners.length / 6);
+    const [a, b, c] = [0, 1, 2].map((k) => new Vector3().fromBufferAttribute(p, corners[first + k] ?? 0));
+    const normal = b.clone().sub(a).cross(c.clone().sub(a)).normalize();
+    return { place: a.add(b).add(c).multiplyScalar(1 / 3), normal };
+  }
+
+  /** The direction of what is picked, for a section across it: { direction, place } or null. */
+  direction() {
+    const found = this.current;
+    if (!found) return null;
+    const { place } = found;
+    if (found.kind === 'edge') return { direction: this.edgeDirection(found), place };
+    const of = found.kind === 'point' ? this.card.itemOf(found.layer, found.item) : found;
+    const known = of && (of.layer.fact(of.item, 'normal') ?? of.layer.fact(of.item, 'axis'));
+    const direction = known ? new Vector3(...known) : found.normal;
+    return direction ? { direction, place } : null;
+  }
+
+  edgeDirection({ layer, item, tangent }) {
+    const { shape, axis, direction } = shapeOf(layer.nodesOf(item));
+    if (shape === 'circle') return new Vector3(...axis);
+    return shape === 'straight' ? new Vector3(...direction) : tangent;
+  }
+
+  tellUnit() {
+    this.colouring.setRange(this.colouring.range);
+    this.shading.shadeBy(get('shade').value);
+    if (this.section.on) this.section.show();
+    if (this.tool === 'measure') {
+      this.card.measured(this.measure.picks, this.measured ?? []);
+      if (this.measured?.length) this.overlay.label.textContent = this.measure.headline();
+    } else if (this.current) this.card.tell(this.current, this.positionOf(this.current.place));
+  }
+
+  async savePicture() {
+    const name = await savePicture(this.scene, this.stage, this.colouring, this.overlay);
+    say(`Saved ${name}`);
+    hook.saved = name;
+  }
+
+  help() { get('help').showModal(); }
+
+  get picked() {
+    if (!this.current) return null;
+    const { kind, layer, item, place } = this.current;
+    const told = { kind, layer: this.stage.layers.indexOf(layer), item, position: this.positionOf(place) };
+    if (kind !== 'point') return { ...told, facts: Object.fromEntries(layer.facts.get(item) ?? []) };
+    return { ...told, index: item, values: Object.fromEntries(layer.fields.map(({ name, values }) => [name, values[item]])) };
+  }
 }
 
-/** A click is a press and a release at nearly the same place. */
-function listenToClicks(scene, stage, panel) {
-  let pressed = null;
-  canvas.addEventListener('pointerdown', (event) => { pressed = event; });
-  canvas.addEventListener('pointerup', (event) => {
-    if (!pressed || Math.hypot(event.clientX - pressed.clientX, event.clientY - pressed.clientY) > 4) return;
-    const frame = canvas.getBoundingClientRect();
-    choose(scene, stage, panel,
-      pick(stage, event.clientX - frame.left, event.clientY - frame.top, event.pointerType));
-  });
-}
-
-function listenToKeys(scene, stage, panel) {
-  const step = Math.PI / 24;
-  const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-  canvas.addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.altKey || event.metaKey) return;
-    const arrow = arrows[event.key];
-    const name = Object.keys(views)[Number(event.key) - 1];
-    if (arrow && event.shiftKey) stage.move(0.06 * arrow[0], 0.06 * arrow[1]);
-    else if (arrow) stage.turn(step * arrow[0], step * arrow[1]);
-    else if (event.key === '+' || event.key === '=') stage.zoom(1 / 1.15);
-    else if (event.key === '-') stage.zoom(1.15);
-    else if (event.key === 'Escape') choose(scene, stage, panel, null);
-    else if (name) stage.look(name);
-    else return;
-    event.preventDefault();
-  });
-}
-
-function describeState(stage, panel) {
-  Object.defineProperties(hook, {
-    drawings: { get: () => stage.drawings },
-    layers: {
-      get: () => stage.layers.map(({ name, kind, count: size, visible }) => ({ name, kind, count: size, visible })),
-    },
-    colouring: { get: () => ({ field: panel.field, range: panel.range }) },
-  });
+function describeState(app) {
+  const { stage, panel, colouring, section, scene } = app;
+  const getters = {
+    drawings: () => stage.drawings,
+    frames: () => stage.frames,
+    budget: () => stage.budget,
+    layers: () => stage.layers.map(({ name, kind, count: size, visible }) => ({ name, kind, count: size, visible })),
+    colouring: () => ({ field: colouring.field, range: colouring.range }),
+    picked: () => app.picked,
+    tool: () => app.tool,
+    measured: () => app.measured ?? [],
+    section: () => ({ on: section.on, axis: section.axis, at: section.on ? section.number() : null }),
+  };
+  for (const [name, read] of Object.entries(getters)) Object.defineProperty(hook, name, { get: read });
   hook.setVisible = (index, shown) => panel.setVisible(index, shown);
-  hook.colourBy = (name) => panel.colourBy(name);
-  hook.setRange = (range) => panel.setRange(range);
+  hook.colourBy = (name) => colouring.colourBy(name);
+  hook.setRange = (range) => colouring.setRange(range);
   hook.look = (name) => stage.look(name);
   hook.spot = (layer, point) => stage.project(stage.layers[layer].positions.subarray(3 * point, 3 * point + 3));
+  hook.place = (position) => stage.project(position.map((v, c) => (v - scene.centre[c]) / scene.scale));
 }
 
-function start() {
+async function start() {
   const scene = description();
-  const layers = layersOf(scene);
-  const maps = mapsOf(scene);
-  const halfSize = scene.highest.map((high, c) => (high - scene.lowest[c]) / 2 / scene.scale);
-  const stage = new Stage(canvas, halfSize, layers);
-  const compass = document.getElementById('compass');
-  stage.afterDrawing = () => drawCompass(compass, stage.camera);
-  const panel = new Panel(scene, stage, maps);
-  stage.look('home');
-  listenToClicks(scene, stage, panel);
-  listenToKeys(scene, stage, panel);
-  describeState(stage, panel);
-  stage.draw();
+  await readNumbers();
+  hook.times.unpacked = performance.now();
+  const app = new App(scene);
+  app.stage.look('home');
+  describeState(app);
+  get('loading').hidden = true;
+  app.stage.draw();
+  hook.times.ready = performance.now();
   hook.state = 'ready';
 }
 
-try {
-  start();
-} catch (error) {
-  const message = document.getElementById('message');
+start().catch((error) => {
+  const message = get('message');
   const webgl = /webgl/i.test(error.message);
   hook.state = 'failed';
   hook.message = error.message;
+  get('loading').hidden = true;
   message.textContent = webgl
     ? 'The scene cannot be drawn: this browser offers no WebGL 2. Turn on graphics acceleration or use another browser.'
     : `The scene cannot be shown: ${error.message}.`;
   message.hidden = false;
-}
+});

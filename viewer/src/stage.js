@@ -6,10 +6,12 @@
 
 import {
   AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, LineBasicMaterial, LineSegments,
-  PerspectiveCamera, Raycaster, Scene, Spherical, Vector2, Vector3, WebGLRenderer,
+  DoubleSide, Mesh, MeshBasicMaterial, PerspectiveCamera, Plane, Scene, Spherical, Vector3, Vector4, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
-import { ringOf } from './layers.js';
+import { NO_CUT, ringOf } from './dots.js';
+import { endsOf, nearer, thickLinesOf } from './layers.js';
+import { theme } from './theme.js';
 
 /** Where the eye stands, seen from the centre. */
 export const views = {
@@ -22,7 +24,10 @@ export const views = {
   '\u2212z': [0, 0, -1],
 };
 
-const dark = window.matchMedia('(prefers-color-scheme: dark)');
+/** While the scene moves a drawing should take no longer than this, in milliseconds. */
+const FRAME = 33;
+const REST = 180;
+const PICKED = '#ff2ec4';
 
 function boxOf(size) {
   const [x, y, z] = size;
@@ -40,7 +45,11 @@ export class Stage {
     this.layers = layers;
     this.sizeFactor = 1;
     this.drawings = 0;
+    this.budget = 400000;
+    this.frames = [];
+    this.movedAt = -Infinity;
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer.localClippingEnabled = true;
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(30, 1, 0.01, 100);
     this.camera.up.set(0, 0, 1);
@@ -54,9 +63,9 @@ export class Stage {
     this.controls.zoomToCursor = true;
     this.controls.minDistance = 0.02;
     this.controls.maxDistance = 40;
-    this.controls.addEventListener('change', () => this.refresh());
+    this.controls.addEventListener('change', () => this.moving());
     new ResizeObserver(() => this.resize()).observe(canvas);
-    dark.addEventListener('change', () => this.applyScheme());
+    theme.onChange(() => this.applyScheme());
     this.applyScheme();
     this.resize();
     this.look('home');
@@ -71,9 +80,12 @@ export class Stage {
   }
 
   applyScheme() {
-    this.scene.background = new Color(dark.matches ? '#16171b' : '#ffffff');
+    this.scene.background = new Color(theme.dark ? '#16171b' : '#ffffff');
     for (const layer of this.layers)
-      if (layer.thick) layer.thick.material.color.set(dark.matches ? '#f4f4f8' : layer.description.colour);
+      {
+      if (layer.thick) layer.thick.material.color.set(theme.dark ? '#f4f4f8' : layer.description.colour);
+      if (layer.lines) layer.lines.material.color.set(theme.dark ? '#0c1220' : '#3a4a68');
+    }
     this.refresh();
   }
 
@@ -138,7 +150,7 @@ export class Stage {
     const turned = new Vector3().setFromSpherical(zUp);
     this.camera.position.copy(this.controls.target).add(new Vector3(turned.x, -turned.z, turned.y));
     this.controls.update();
-    this.refresh();
+    this.moving();
   }
 
   /** Moves the scene by fractions of the window's height. */
@@ -149,13 +161,13 @@ export class Stage {
     const y = new Vector3().setFromMatrixColumn(this.camera.matrix, 1).multiplyScalar(-up * step);
     for (const place of [this.camera.position, this.controls.target]) place.add(x).add(y);
     this.controls.update();
-    this.refresh();
+    this.moving();
   }
 
   zoom(factor) {
     this.camera.position.sub(this.controls.target).multiplyScalar(factor).add(this.controls.target);
     this.controls.update();
-    this.refresh();
+    this.moving();
   }
 
   /** Marks one place, or none. */
@@ -172,33 +184,83 @@ export class Stage {
     return { x: ((spot.x + 1) / 2) * width, y: ((1 - spot.y) / 2) * height, depth: spot.z };
   }
 
-  /** The depth of the nearest surface at a place of the canvas; 1 where there is none. */
-  surfaceDepth(x, y) {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    const raycaster = new Raycaster();
-    raycaster.setFromCamera(new Vector2((2 * x) / width - 1, 1 - (2 * y) / height), this.camera);
-    const meshes = this.layers.filter((layer) => layer.mesh && layer.visible).map((layer) => layer.mesh);
-    const [hit] = raycaster.intersectObjects(meshes, false);
-    if (!hit) return 1;
-    const slack = 0.01 * this.radius;
-    const behind = hit.point.addScaledVector(raycaster.ray.direction, slack);
-    return behind.project(this.camera).z;
+  /** Marks an item of a layer of surfaces or curves; null: none. */
+  emphasise(layer, item) {
+    if (this.emphasis) {
+      this.scene.remove(this.emphasis);
+      this.emphasis.geometry.dispose();
+      this.emphasis.material.dispose();
+      this.emphasis = null;
+    }
+    if (layer?.mesh) this.emphasis = this.patchOf(layer, item);
+    if (layer?.links) {
+      const ends = endsOf(layer.positions, layer.links, ...layer.linksOf(item));
+      this.emphasis = thickLinesOf(ends, PICKED, 6);
+      this.emphasis.renderOrder = 5;
+    }
+    if (this.emphasis) {
+      this.emphasis.material.clippingPlanes = this.planes ?? [];
+      this.scene.add(this.emphasis);
+    }
+    this.refresh();
+  }
+
+  patchOf(layer, item) {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', layer.mesh.geometry.attributes.position);
+    geometry.setIndex(layer.trianglesOf(item));
+    return new Mesh(geometry, new MeshBasicMaterial({
+      color: PICKED, side: DoubleSide, transparent: true, opacity: 0.3, depthWrite: false,
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+    }));
+  }
+
+  /** Shows only where normal . place <= distance; null: everything. */
+  cutBy(normal, distance) {
+    this.planes = normal ? [new Plane(normal.clone().negate(), distance)] : [];
+    const cut = normal ? new Vector4(normal.x, normal.y, normal.z, distance) : NO_CUT;
+    for (const layer of this.layers) layer.cutBy(this.planes, cut);
+    if (this.emphasis) this.emphasis.material.clippingPlanes = this.planes;
+    this.refresh();
+  }
+
+  /** The scene has just moved: it is drawn at once, and again with all points when it rests. */
+  moving() {
+    this.movedAt = performance.now();
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => this.refresh(), REST);
+    this.refresh();
   }
 
   refresh() {
     if (this.waiting) return;
     this.waiting = true;
-    requestAnimationFrame(() => this.draw());
+    requestAnimationFrame((now) => this.frame(now));
   }
 
-  draw() {
+  frame(now) {
+    const moves = performance.now() - this.movedAt < REST;
+    if (moves && this.lastFrame) this.adapt(now - this.lastFrame);
+    this.lastFrame = moves ? now : 0;
+    this.draw(moves ? this.budget : Infinity);
+  }
+
+  /** Draws more or fewer points, as the time since the last frame suggests. */
+  adapt(time) {
+    if (time > 1000) return;
+    this.frames.push(time);
+    if (this.frames.length > 120) this.frames.shift();
+    if (time > FRAME) this.budget = Math.max(20000, this.budget * Math.max(0.5, FRAME / time));
+    else if (time < 0.7 * FRAME) this.budget = Math.min(1e7, this.budget * 1.15);
+  }
+
+  draw(most = Infinity) {
     this.waiting = false;
     const ratio = this.renderer.getPixelRatio();
     const perPixel = (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / (this.canvas.clientHeight * ratio);
-    for (const layer of this.layers.filter(({ points }) => points)) {
-      layer.points.material.uniforms.size.value = layer.dots * this.sizeFactor * ratio;
-      layer.points.material.uniforms.perPixel.value = perPixel;
-    }
+    for (const { dots } of this.layers) dots?.prepare(this.sizeFactor, ratio, perPixel, most);
+    const largest = this.layers.reduce((size, { dots }) => Math.max(size, dots?.uniforms.size.value ?? 0), 0);
+    nearer.value = (0.6 * largest + 1) * perPixel;
     this.renderer.render(this.scene, this.camera);
     this.drawings++;
     if (this.afterDrawing) this.afterDrawing();
