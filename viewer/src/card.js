@@ -5,7 +5,7 @@
 
 import { rowsOf } from './facts.js';
 import { shapeOf } from './geometry.js';
-import { coordinate, count, decimalsFor, degrees, element, fixed, get, measure, short } from './text.js';
+import { coordinate, count, decimalsFor, degrees, element, fixed, get, short } from './text.js';
 
 function cell(text, error) {
   const cell = element('td');
@@ -71,7 +71,7 @@ export class Card {
 
   pointTables({ layer, item }, position) {
     const values = layer.fields.map((field) => [field.name,
-      field.unit === 'length' ? measure(field.values[item], 1, 5) : short(field.values[item], field.type === 'float32' ? 5 : 15)]);
+      field.unit === 'length' ? coordinate(field.values[item], this.decimals + 1) : short(field.values[item], field.type === 'float32' ? 5 : 15)]);
     const tables = [table([...this.places(position), ...values])];
     const of = this.itemOf(layer, item);
     if (of) {
@@ -86,7 +86,7 @@ export class Card {
     const shape = shapeOf(layer.nodesOf(item).map(inFile));
     const rows = [['layer', layer.name], ['shape', shape.shape]];
     if (shape.shape === 'circle')
-      rows.push(['radius', measure(shape.radius, 1)], ['diameter', measure(2 * shape.radius, 1)],
+      rows.push(['radius', coordinate(shape.radius, this.decimals + 1)], ['diameter', coordinate(2 * shape.radius, this.decimals + 1)],
         ['centre', shape.centre.map((v) => coordinate(v, this.decimals)).join('\n')], ['axis', shape.axis.map((v) => fixed(v, 5)).join('\n')]);
     if (shape.shape === 'straight') rows.push(['direction', shape.direction.map((v) => fixed(v, 5)).join('\n')]);
     return [table([...rows, ...rowsOf(layer.facts.get(item) ?? [], this.decimals, ['edge', 'closed'])])];

@@ -4,7 +4,7 @@
 // How points and faces are coloured: the field, its range with a histogram and two thumbs, the
 // groups of a field of numbers that name something; and the faces by what is known of them.
 
-import { colourAt, css, drawBar, groupColour, hiddenOf } from './colours.js';
+import { colourAt, css, drawBar, groupColour, tintsOfGroups, tintsOfMap } from './colours.js';
 import { theme } from './theme.js';
 import { count, element, get, measure, short } from './text.js';
 
@@ -120,11 +120,10 @@ export class Colouring {
   }
 
   apply() {
-    const hidden = hiddenOf(this.hidden);
-    this.texture?.dispose();
-    this.texture = hidden.texture;
-    for (const layer of this.clouds)
-      layer.colourBy(this.field, this.range, this.map?.texture ?? null, get('within').checked && !this.grouped, hidden);
+    const within = get('within').checked;
+    const tintsOf = (values, room) => (this.grouped ? tintsOfGroups(values, this.hidden, room)
+      : tintsOfMap(values, this.range, this.map, within, room));
+    for (const layer of this.clouds) layer.colourBy(this.field, tintsOf);
     this.stage.refresh();
   }
 

@@ -3,7 +3,6 @@
 
 // Colours of values: maps for quantities, distinct colours for numbered groups.
 
-import { ClampToEdgeWrapping, DataTexture, LinearFilter, NearestFilter, RGBAFormat } from 'three';
 import { colourMap } from './data.js';
 
 export const GROUPS = 1024;
@@ -43,32 +42,54 @@ export function groupColour(number) {
 
 export const css = ([red, green, blue]) => `rgb(${red}, ${green}, ${blue})`;
 
-function textureOf(bytes, filter) {
-  const size = bytes.length / 3;
-  const rgba = new Uint8Array(4 * size);
-  for (let i = 0; i < size; i++) rgba.set([bytes[3 * i], bytes[3 * i + 1], bytes[3 * i + 2], 255], 4 * i);
-  const texture = new DataTexture(rgba, size, 1, RGBAFormat);
-  texture.minFilter = texture.magFilter = filter;
-  texture.wrapS = ClampToEdgeWrapping;
-  texture.needsUpdate = true;
-  return texture;
-}
-
-/** The colour maps of a scene: bytes for the bar, a texture for the points. */
+/** The colour maps of a scene, 256 triples of bytes each. */
 export function mapsOf(scene) {
-  const maps = { groups: { bytes: groups, texture: textureOf(groups, NearestFilter) } };
-  for (const name of Object.keys(scene.maps)) {
-    const bytes = colourMap(scene, name);
-    maps[name] = { bytes, texture: textureOf(bytes, LinearFilter) };
-  }
+  const maps = { groups: { bytes: groups } };
+  for (const name of Object.keys(scene.maps)) maps[name] = { bytes: colourMap(scene, name) };
   return maps;
 }
 
-/** Groups that are not shown: as a set, and as a texture for the points. */
-export function hiddenOf(set) {
-  const bytes = new Uint8Array(3 * GROUPS);
-  for (const number of set) bytes.fill(255, 3 * (((number % GROUPS) + GROUPS) % GROUPS), 3 * (((number % GROUPS) + GROUPS) % GROUPS) + 3);
-  return { set, texture: textureOf(bytes, NearestFilter) };
+const OPAQUE = 0xff000000;
+const GREY = OPAQUE | (NONE[2] << 16) | (NONE[1] << 8) | NONE[0];
+
+/** Triples of bytes as numbers of four, the last being opacity. */
+function packed(bytes) {
+  return Uint32Array.from({ length: bytes.length / 3 }, (_, i) =>
+    (OPAQUE | (bytes[3 * i + 2] << 16) | (bytes[3 * i + 1] << 8) | bytes[3 * i]) >>> 0);
+}
+
+function roomFor(values, room) {
+  return room?.length === 4 * values.length ? room : new Uint8Array(4 * values.length);
+}
+
+/** Colours of quantities: 4 bytes for each value; within: what is outside the range is not shown. */
+export function tintsOfMap(values, [low, high], map, within, room) {
+  const bytes = roomFor(values, room);
+  const out = new Uint32Array(bytes.buffer);
+  const table = packed(map.bytes);
+  const factor = 255 / (high - low);
+  for (let i = 0; i < values.length; i++) {
+    const value = values[i];
+    if (within && !(value >= low && value <= high)) out[i] = 0;
+    else if (!(Math.abs(value) <= 3e38)) out[i] = GREY;
+    else {
+      const at = (value - low) * factor;
+      out[i] = table[at <= 0 ? 0 : at >= 255 ? 255 : (at + 0.5) | 0];
+    }
+  }
+  return bytes;
+}
+
+/** Colours of numbered groups, of which some are hidden. */
+export function tintsOfGroups(values, hidden, room) {
+  const bytes = roomFor(values, room);
+  const out = new Uint32Array(bytes.buffer);
+  const table = packed(groups);
+  for (let i = 0; i < values.length; i++) {
+    const value = values[i];
+    out[i] = hidden.size && hidden.has(value) ? 0 : value < 0 ? GREY : table[value % GROUPS];
+  }
+  return bytes;
 }
 
 /** The bytes of the colour at t of 0 to 1. */

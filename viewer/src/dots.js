@@ -3,44 +3,24 @@
 
 // Points: one call draws them all, or while the scene moves as many as the machine can manage.
 
-import { BufferAttribute, BufferGeometry, Color, Points, ShaderMaterial, Vector2, Vector4 } from 'three';
+import { BufferAttribute, BufferGeometry, Color, Points, ShaderMaterial, Vector4 } from 'three';
 
 // A dot is a ball that a surface through its middle must not cut: its depth is that of its front.
-// A value that is no number fails every comparison.
+// Colours come from outside, one for each point; one without opacity is not shown.
 const vertexShader = `
-attribute float value;
+attribute vec4 tint;
 uniform float size, perPixel;
-uniform int mode;
-uniform bool within;
-uniform vec2 range;
+uniform bool tinted;
 uniform vec3 plain;
 uniform vec4 cut;
-uniform sampler2D map;
-uniform sampler2D hidden;
 varying vec3 colour;
-void paint() {
-  colour = plain;
-  if (mode == 0) return;
-  bool finite = value >= -3.0e38 && value <= 3.0e38;
-  colour = vec3(0.6);
-  if (mode == 1 && finite) {
-    float t = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
-    colour = texture2D(map, vec2(t * 255.0 / 256.0 + 0.5 / 256.0, 0.5)).rgb;
-  }
-  if (mode == 2 && value >= 0.0) colour = texture2D(map, vec2((mod(value, 1024.0) + 0.5) / 1024.0, 0.5)).rgb;
-}
-bool away() {
-  if (dot(cut.xyz, position) > cut.w) return true;
-  if (mode == 1 && within && !(value >= range.x && value <= range.y)) return true;
-  return mode == 2 && texture2D(hidden, vec2((mod(value, 1024.0) + 0.5) / 1024.0, 0.5)).r > 0.5;
-}
 void main() {
-  paint();
+  colour = tinted ? tint.rgb : plain;
   vec4 place = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * place;
-  vec4 front = projectionMatrix * (place - vec4(0.0, 0.0, 0.5 * size * perPixel * place.z, 0.0));
-  gl_Position.z = front.z / front.w * gl_Position.w;
-  if (away()) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
+  float front = place.z * (1.0 - 0.5 * size * perPixel);
+  gl_Position.z = (projectionMatrix[2][2] * front + projectionMatrix[3][2]) / -front * gl_Position.w;
+  if (dot(cut.xyz, position) > cut.w || (tinted && tint.a < 0.5)) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
   gl_PointSize = size;
 }`;
 
@@ -82,19 +62,15 @@ function materialOf(colour) {
     uniforms: {
       size: { value: 4 },
       perPixel: { value: 0 },
-      mode: { value: 0 },
-      within: { value: false },
-      range: { value: new Vector2(0, 1) },
+      tinted: { value: false },
       plain: { value: screenColour(colour) },
       cut: { value: NO_CUT },
-      map: { value: null },
-      hidden: { value: null },
     },
   });
 }
 
 /** Fewer points are always drawn all. */
-const FEW = 100000;
+const FEW = 20000;
 const LEVELS = 7;
 
 /** An even share of the bits of i, the same on every machine. */
@@ -124,12 +100,20 @@ function dotSize(count) {
   return Math.min(10, Math.max(2, 220 / Math.sqrt(count + 1)));
 }
 
+/** The positions in another order. */
+function sorted(positions, order) {
+  const out = new Float32Array(positions.length);
+  for (let i = 0; i < order.length; i++)
+    for (let c = 0; c < 3; c++) out[3 * i + c] = positions[3 * order[i] + c];
+  return out;
+}
+
 export class Dots {
   constructor(positions, colour, largest = 10) {
     const geometry = new BufferGeometry();
-    geometry.setAttribute('position', new BufferAttribute(positions, 3));
     this.count = positions.length / 3;
-    if (this.count > FEW) geometry.setIndex(new BufferAttribute(sampleOrder(this.count), 1));
+    this.order = this.count > FEW ? sampleOrder(this.count) : null;
+    geometry.setAttribute('position', new BufferAttribute(this.order ? sorted(positions, this.order) : positions, 3));
     this.object = new Points(geometry, materialOf(colour));
     this.object.frustumCulled = false;
     this.size = Math.min(largest, dotSize(this.count));
@@ -138,25 +122,30 @@ export class Dots {
 
   /** How large dots are, and the most of them that are drawn: fewer are drawn larger. */
   prepare(factor, ratio, perPixel, most) {
-    const shown = this.count > FEW ? Math.min(this.count, Math.max(FEW, most)) : this.count;
+    const shown = Math.min(this.count, Math.max(FEW, Math.round(most)));
     const size = this.size * factor * ratio;
     this.object.geometry.setDrawRange(0, shown === this.count ? Infinity : shown);
     this.uniforms.size.value = size * Math.min(2.5, Math.sqrt(this.count / shown));
     this.uniforms.perPixel.value = perPixel;
     const round = size > 3 * ratio;
     const { material } = this.object;
-    if (Boolean(material.defines.ROUND) !== round) {
-      material.defines = round ? { ROUND: 1 } : {};
-      material.needsUpdate = true;
-    }
-    this.shown = shown;
+    if (Boolean(material.defines.ROUND) === round) return;
+    material.defines = round ? { ROUND: 1 } : {};
+    material.needsUpdate = true;
   }
 
-  /** Values to colour by; null for one colour. */
-  setValues(values) {
+  /** Colours for the points, 4 bytes each, in their order; null: one colour for all. */
+  tint(colours) {
+    this.uniforms.tinted.value = Boolean(colours);
+    if (!colours) return;
     const { geometry } = this.object;
-    geometry.deleteAttribute('value');
-    if (values) geometry.setAttribute('value', new BufferAttribute(Float32Array.from(values), 1));
+    if (!geometry.attributes.tint)
+      geometry.setAttribute('tint', new BufferAttribute(new Uint8Array(4 * this.count), 4, true));
+    const from = new Uint32Array(colours.buffer);
+    const to = new Uint32Array(geometry.attributes.tint.array.buffer);
+    if (this.order) for (let i = 0; i < to.length; i++) to[i] = from[this.order[i]];
+    else to.set(from);
+    geometry.attributes.tint.needsUpdate = true;
   }
 }
 

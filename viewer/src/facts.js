@@ -6,8 +6,7 @@
 
 import { coordinate, count, degrees, fixed, measure, short } from './text.js';
 
-const length = (value) => measure(value, 1);
-const small = (value) => measure(value, 1, 4);
+const length = (value, decimals) => coordinate(value, decimals + 1);
 const angle = (value) => degrees(value);
 const number = (value) => short(value, 4);
 
@@ -15,10 +14,10 @@ const number = (value) => short(value, 4);
 const known = {
   place: ['place', length], normal: ['normal'], axis: ['axis'], radius: ['radius', length], tube_radius: ['tube radius', length],
   slope: ['half angle', (value) => angle((Math.atan(value) * 180) / Math.PI)],
-  area: ['area', (value) => measure(value, 2)], points: ['points', count], mean: ['mean deviation', small],
-  rms: ['rms', small], p95: ['95 % within', small], max: ['largest', small], chi: ['\u03c7\u00b2 per point', number],
+  area: ['area', (value) => measure(value, 2)], points: ['points', (value) => count(value)], mean: ['mean deviation', length],
+  rms: ['rms', length], p95: ['95 % within', length], max: ['largest', length], chi: ['\u03c7\u00b2 per point', number],
   length: ['length', length], angle: ['dihedral angle', angle], position: ['place', length],
-  position_error: ['standard error of place', small], regions: ['regions'], faces: ['faces'], region: ['region'], edge: ['edge'],
+  position_error: ['standard error of place', length], regions: ['regions'], faces: ['faces'], region: ['region'], edge: ['edge'],
   corners: ['corners'], smooth: ['smooth'], closed: ['closed'], type: ['type'],
 };
 
@@ -38,7 +37,8 @@ function text(name, value, decimals) {
   if (typeof value === 'string') return value;
   if (value.some((v) => v === null)) return 'not known';
   if (value.length === 3) return vector(name, value, decimals);
-  return value.map(known[name]?.[1] ?? ((v) => short(v, 6))).join(', ');
+  const write = known[name]?.[1] ?? ((v) => short(v, 6));
+  return value.map((v) => write(v, decimals)).join(', ');
 }
 
 /** Errors are written like what they belong to, with two digits. */

@@ -155,24 +155,14 @@ class PointsLayer extends Layer {
 
   /** Whether the range and the groups in force leave a point to be seen. */
   keeps(index) {
-    const { mode, within, range } = this.dots.uniforms;
-    if (mode.value === 0) return true;
-    const value = this.shown.values[index];
-    if (mode.value === 2) return !this.hidden?.has(value);
-    return !within.value || (value >= range.value.x && value <= range.value.y);
+    return !this.tints || this.tints[4 * index + 3] > 0;
   }
 
-  colourBy(name, range, map, within, hidden) {
+  /** Colours the points by a field: tintsOf(values, room) gives 4 bytes for each. No such field: one colour. */
+  colourBy(name, tintsOf) {
     const field = [...this.fields, ...this.heights].find((candidate) => candidate.name === name);
-    const { uniforms } = this.dots;
-    uniforms.mode.value = !field ? 0 : field.grouped ? 2 : 1;
-    if (this.shown !== field) this.dots.setValues(field?.values);
-    this.shown = field;
-    uniforms.range.value.set(range[0], range[1]);
-    uniforms.map.value = map;
-    uniforms.within.value = within;
-    this.hidden = hidden.set;
-    uniforms.hidden.value = hidden.texture;
+    this.tints = field ? tintsOf(field.values, this.tints) : null;
+    this.dots.tint(this.tints);
   }
 }
 

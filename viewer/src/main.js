@@ -116,26 +116,28 @@ class App {
   choose(found) {
     if (!found && this.tool === 'pick') this.letGo();
     if (!found) return;
-    this.mark(found);
     this.panel.makeRoom();
     if (this.tool === 'measure') {
       this.measured = this.measure.add(found);
       this.card.measured(this.measure.picks, this.measured);
-    } else this.card.tell(found, this.positionOf(found.place));
+    }
+    this.mark(found);
+    if (this.tool === 'pick') this.card.tell(found, this.positionOf(found.place));
     say(get('picked').innerText);
   }
 
   mark(found) {
     this.current = found;
     this.stage.mark(found && found.kind !== 'edge' ? found.place.toArray() : null);
-    this.stage.emphasise(found && found.kind !== 'point' ? found.layer : null, found?.item);
+    const marked = this.tool === 'measure' ? this.measure.picks : [];
+    this.stage.emphasise([...marked, found].filter((one) => one && one.kind !== 'point'));
   }
 
   /** Lets go of what is picked or measured; without that, of the tool. */
   letGo() {
     const held = this.current || this.measure.picks.length;
-    this.mark(null);
     this.measure.clear();
+    this.mark(null);
     this.measured = [];
     if (this.tool === 'measure' && held) this.card.measured([], []);
     else if (this.tool === 'measure') this.use('pick');

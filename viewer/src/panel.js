@@ -15,7 +15,7 @@ function layerItem(entry, id, shown, onChange) {
   box.addEventListener('change', () => onChange(box.checked));
   const label = element('label');
   const swatch = element('span', '', { className: `swatch ${entry.kind}` });
-  if (entry.colour) swatch.style.background = entry.colour;
+  if (entry.colour && entry.kind !== 'curves') swatch.style.background = entry.colour;
   label.append(box, swatch, element('span', entry.name || entry.kind), element('span', entry.note ?? '', { className: 'count' }));
   const item = element('li');
   item.append(label);

@@ -39,16 +39,28 @@ function boxOf(size) {
   return new LineSegments(geometry, new LineBasicMaterial({ color: '#8a8a99', transparent: true, opacity: 0.5 }));
 }
 
+/** Without a graphics processor smooth borders of lines cost more than all else. */
+function drawsInSoftware() {
+  const context = document.createElement('canvas').getContext('webgl2');
+  const facts = context?.getExtension('WEBGL_debug_renderer_info');
+  const name = facts ? context.getParameter(facts.UNMASKED_RENDERER_WEBGL) : '';
+  context?.getExtension('WEBGL_lose_context')?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
+}
+
 export class Stage {
   constructor(canvas, halfSize, layers) {
     this.canvas = canvas;
     this.layers = layers;
     this.sizeFactor = 1;
     this.drawings = 0;
-    this.budget = 400000;
+    this.marks = [];
     this.frames = [];
-    this.movedAt = -Infinity;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.moves = false;
+    this.fence = null;
+    const slow = drawsInSoftware();
+    this.renderer = new WebGLRenderer({ canvas, antialias: !slow });
+    this.budget = slow ? 40000 : 1000000;
     this.renderer.localClippingEnabled = true;
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(30, 1, 0.01, 100);
@@ -103,7 +115,10 @@ export class Stage {
   freeRoom() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const panel = document.getElementById('panel').getBoundingClientRect();
-    if (panel.width > 0.7 * width) return [0, 0, width, Math.max(0.3 * height, panel.top)];
+    if (panel.width > 0.7 * width) {
+      const top = document.getElementById('tools').getBoundingClientRect().bottom;
+      return [0, top, width, Math.max(0.25 * height, panel.top - top)];
+    }
     const left = Math.min(panel.right, 0.5 * width);
     return [left, 0, width - left, height];
   }
@@ -184,25 +199,26 @@ export class Stage {
     return { x: ((spot.x + 1) / 2) * width, y: ((1 - spot.y) / 2) * height, depth: spot.z };
   }
 
-  /** Marks an item of a layer of surfaces or curves; null: none. */
-  emphasise(layer, item) {
-    if (this.emphasis) {
-      this.scene.remove(this.emphasis);
-      this.emphasis.geometry.dispose();
-      this.emphasis.material.dispose();
-      this.emphasis = null;
+  /** Marks items of layers of surfaces or curves: { layer, item } each. */
+  emphasise(items) {
+    for (const mark of this.marks) {
+      this.scene.remove(mark);
+      mark.geometry.dispose();
+      mark.material.dispose();
     }
-    if (layer?.mesh) this.emphasis = this.patchOf(layer, item);
-    if (layer?.links) {
-      const ends = endsOf(layer.positions, layer.links, ...layer.linksOf(item));
-      this.emphasis = thickLinesOf(ends, PICKED, 6);
-      this.emphasis.renderOrder = 5;
-    }
-    if (this.emphasis) {
-      this.emphasis.material.clippingPlanes = this.planes ?? [];
-      this.scene.add(this.emphasis);
+    this.marks = items.map(({ layer, item }) => (layer.mesh ? this.patchOf(layer, item) : this.strokeOf(layer, item)));
+    for (const mark of this.marks) {
+      mark.material.clippingPlanes = this.planes ?? [];
+      this.scene.add(mark);
     }
     this.refresh();
+  }
+
+  strokeOf(layer, item) {
+    const ends = endsOf(layer.positions, layer.links, ...layer.linksOf(item));
+    const stroke = thickLinesOf(ends, PICKED, 6);
+    stroke.renderOrder = 5;
+    return stroke;
   }
 
   patchOf(layer, item) {
@@ -220,37 +236,63 @@ export class Stage {
     this.planes = normal ? [new Plane(normal.clone().negate(), distance)] : [];
     const cut = normal ? new Vector4(normal.x, normal.y, normal.z, distance) : NO_CUT;
     for (const layer of this.layers) layer.cutBy(this.planes, cut);
-    if (this.emphasis) this.emphasis.material.clippingPlanes = this.planes;
+    for (const mark of this.marks) mark.material.clippingPlanes = this.planes;
     this.refresh();
   }
 
-  /** The scene has just moved: it is drawn at once, and again with all points when it rests. */
+  /** The scene has just moved: it is drawn at once with the points there is time for, and again with
+   * all of them when it rests. */
   moving() {
-    this.movedAt = performance.now();
-    clearTimeout(this.resting);
-    this.resting = setTimeout(() => this.refresh(), REST);
+    this.moves = true;
     this.refresh();
   }
 
   refresh() {
     if (this.waiting) return;
     this.waiting = true;
-    requestAnimationFrame((now) => this.frame(now));
+    requestAnimationFrame(() => this.frame());
   }
 
-  frame(now) {
-    const moves = performance.now() - this.movedAt < REST;
-    if (moves && this.lastFrame) this.adapt(now - this.lastFrame);
-    this.lastFrame = moves ? now : 0;
-    this.draw(moves ? this.budget : Infinity);
+  frame() {
+    this.draw(this.moves ? this.budget : Infinity);
+    if (this.moves) this.watch();
   }
 
-  /** Draws more or fewer points, as the time since the last frame suggests. */
+  /** Waits until what was asked for is drawn, which tells how long it takes; then for a rest. */
+  watch() {
+    const gl = this.renderer.getContext();
+    const now = performance.now();
+    if (this.fence) {
+      gl.deleteSync(this.fence);
+      if (now - this.begun > FRAME) this.adapt(now - this.begun);
+    }
+    clearTimeout(this.resting);
+    this.fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    this.begun = now;
+    gl.flush();
+    this.resting = setTimeout(() => this.lookBack(), 4);
+  }
+
+  lookBack() {
+    const gl = this.renderer.getContext();
+    if (gl.getSyncParameter(this.fence, gl.SYNC_STATUS) !== gl.SIGNALED) {
+      this.resting = setTimeout(() => this.lookBack(), 4);
+      return;
+    }
+    gl.deleteSync(this.fence);
+    this.fence = null;
+    this.adapt(performance.now() - this.begun);
+    this.resting = setTimeout(() => {
+      this.moves = false;
+      this.refresh();
+    }, REST);
+  }
+
+  /** Draws more or fewer points, as the time that a drawing took suggests. */
   adapt(time) {
-    if (time > 1000) return;
     this.frames.push(time);
     if (this.frames.length > 120) this.frames.shift();
-    if (time > FRAME) this.budget = Math.max(20000, this.budget * Math.max(0.5, FRAME / time));
+    if (time > FRAME) this.budget = Math.max(20000, this.budget * Math.max(0.25, FRAME / time));
     else if (time < 0.7 * FRAME) this.budget = Math.min(1e7, this.budget * 1.15);
   }
 
