@@ -48,24 +48,26 @@ crease_draft crease_draft_variant(
 static crease_status solve(
     crease_context *context, crease_draft *draft, double lambda, bool *solved)
 {
-    *solved = crease_system_factor(&draft->system, lambda);
-    if (!*solved)
-        return CREASE_OK;
-    crease_system_solve(&draft->system, &draft->height);
-    return crease_samples_measure(context, draft->samples, &draft->height);
+    crease_status status = crease_system_factor(context, &draft->system, lambda, solved);
+    if (status != CREASE_OK || !*solved)
+        return status;
+    status = crease_system_solve(context, &draft->system, draft->height.coefficients);
+    return status == CREASE_OK ? crease_samples_measure(context, draft->samples, &draft->height)
+                               : status;
 }
 
 /* Mean distance, freedom and score of the solution at hand. */
-static void evaluate(crease_draft *draft)
+static crease_status evaluate(crease_context *context, crease_draft *draft)
 {
     const double n = draft->samples->used;
     const double floor = fmax(draft->samples->rounding, NEGLIGIBLE * draft->samples->spacing);
     draft->mean = crease_samples_mean_distance(draft->samples);
-    draft->freedom = crease_system_freedom(&draft->system);
+    const crease_status status = crease_system_freedom(context, &draft->system, &draft->freedom);
     const double price = log(n) * n / (n - 2.0 * fmin(draft->freedom, MOST_FREEDOM * n));
     draft->score = draft->fixed_lambda >= 0.0 || draft->freedom <= MOST_FREEDOM * n
         ? 2.0 * n * log(draft->mean + floor) + draft->freedom * price
         : INFINITY;
+    return status;
 }
 
 /* The score stays infinite where the equations have no solution. */
@@ -73,10 +75,17 @@ static crease_status try_lambda(crease_context *context, crease_draft *draft, do
 {
     bool solved;
     draft->score = INFINITY;
-    const crease_status status = solve(context, draft, lambda, &solved);
+    crease_status status = solve(context, draft, lambda, &solved);
     if (status == CREASE_OK && solved)
-        evaluate(draft);
+        status = evaluate(context, draft);
     return status;
+}
+
+/* How many of the bending weights may be taken. The last is too stiff for iterations: they would
+ * not see what holds the gaps. */
+static int weights(const crease_draft *draft)
+{
+    return draft->system.multigrid ? CREASE_LAMBDAS - 1 : CREASE_LAMBDAS;
 }
 
 static crease_status try_number(
@@ -95,7 +104,7 @@ static crease_status choose_of_all(
     crease_context *context, crease_draft *draft, double *best, int *taken)
 {
     crease_status status = CREASE_OK;
-    for (int i = 0; i < CREASE_LAMBDAS && status == CREASE_OK; i++)
+    for (int i = 0; i < weights(draft) && status == CREASE_OK; i++)
         status = try_number(context, draft, i, best, taken);
     return status;
 }
@@ -104,10 +113,10 @@ static crease_status choose_of_all(
 static crease_status choose_near(
     crease_context *context, crease_draft *draft, double *best, int *taken)
 {
-    const int start = draft->lambda;
+    const int start = draft->lambda < weights(draft) ? draft->lambda : weights(draft) - 1;
     crease_status status = try_number(context, draft, start, best, taken);
     for (int i = start + 1;
-         i < CREASE_LAMBDAS && (*taken == i - 1 || !(*best < INFINITY)) && status == CREASE_OK; i++)
+         i < weights(draft) && (*taken == i - 1 || !(*best < INFINITY)) && status == CREASE_OK; i++)
         status = try_number(context, draft, i, best, taken);
     const int from = *taken == start ? start - 1 : -1;
     for (int i = from; i >= 0 && status == CREASE_OK && (i == from || *taken == i + 1); i--)
@@ -151,9 +160,7 @@ static crease_status keep_lambda(crease_context *context, crease_draft *draft, b
     }
     if (status == CREASE_OK && !solved)
         return not_determined(context, draft);
-    if (status == CREASE_OK && last)
-        evaluate(draft);
-    return status;
+    return status == CREASE_OK && last ? evaluate(context, draft) : status;
 }
 
 static double weight_of_tension(const crease_samples *samples, double scale)
@@ -161,11 +168,24 @@ static double weight_of_tension(const crease_samples *samples, double scale)
     return RISE * pow(scale / hypot(samples->range, samples->spacing), 2.0);
 }
 
+static crease_status assemble(crease_context *context, crease_draft *draft)
+{
+    const crease_samples *const s = draft->samples;
+    const crease_observations observations = {.count = s->count,
+        .sides = 1,
+        .uv = s->uv,
+        .weight = s->weight,
+        .tilt = s->tilt,
+        .target = s->target};
+    crease_system_clear(&draft->system);
+    return crease_system_add(context, &draft->system, &draft->height, &observations);
+}
+
 static crease_status fit_round(
     crease_context *context, crease_draft *draft, int round, bool last, crease_choice choice)
 {
     crease_status status = CREASE_OK;
-    double scale = FIRST_SCALE * draft->samples->range;
+    double scale = draft->scale > 0.0 ? draft->scale : FIRST_SCALE * draft->samples->range;
     if (round > 0) {
         scale = crease_samples_scale(draft->samples);
         crease_samples_reweigh(draft->samples, scale, draft->redescending);
@@ -174,10 +194,11 @@ static crease_status fit_round(
     if (round > 0 && draft->orthogonal)
         status = crease_samples_project(context, draft->samples, &draft->height, &draft->layout);
     if (status == CREASE_OK)
-        status = crease_system_assemble(context, &draft->system, &draft->height, draft->samples);
+        status = assemble(context, draft);
     if (status != CREASE_OK)
         return status;
-    if (choice == CREASE_CHOICE_NONE || draft->fixed_lambda >= 0.0 || (round > 0 && !last))
+    const bool choose = last || (round == 0 && !draft->system.multigrid);
+    if (choice == CREASE_CHOICE_NONE || draft->fixed_lambda >= 0.0 || !choose)
         return keep_lambda(context, draft, last);
     return choose_lambda(
         context, draft, choice == CREASE_CHOICE_ALL && draft->system.size <= FEW_UNKNOWNS);
@@ -204,13 +225,13 @@ bool crease_draft_bounded(const crease_draft *draft)
 crease_status crease_draft_fit(
     crease_context *context, crease_draft *draft, int rounds, crease_choice choice)
 {
-    crease_gaps gaps;
+    crease_gaps gaps = {.empty = 0};
     crease_draft_free(draft);
     crease_status status = crease_gaps_create(context, draft->samples, &draft->layout, &gaps);
     if (status == CREASE_OK)
         status = crease_height_create(context, &draft->layout, &draft->height);
     if (status == CREASE_OK)
-        status = crease_system_create(context, &draft->height, &gaps, &draft->system);
+        status = crease_system_create(context, &draft->height, 1, &gaps, &draft->system);
     crease_gaps_free(&gaps);
     const int times = draft->samples->count <= FEW_POINTS ? MORE_ROUNDS * rounds : rounds;
     for (int round = 0; round < times && status == CREASE_OK; round++)

@@ -28,6 +28,7 @@ typedef struct crease_draft {
     int lambda;          /* number of the one taken */
     bool orthogonal;     /* minimise true distances, not vertical ones */
     bool redescending;   /* forget outliers */
+    double scale;        /* standard deviation of the points, when it is known before; else 0 */
     double mean;         /* mean distance of the points */
     double freedom;      /* effective number of parameters */
     double score;        /* to compare drafts: the lower, the better */

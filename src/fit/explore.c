@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { MOST_UNKNOWNS = 4096, ROUNDS = 3 };
+enum { ROUNDS = 3 };
 /* Lines that are refined one at a time, before the others are looked at; these are the strongest.
  */
 enum { FIRST_LINES = 2 };
@@ -63,7 +63,8 @@ static crease_status try_candidate(crease_context *context, crease_draft *draft,
     for (int i = 0; i < candidate->count && fits; i++)
         fits = crease_layout_add(
             &layout, candidate->direction, candidate->at[i], draft->samples->spacing);
-    if (!fits || !crease_explore_keep_net(&layout, bounds) || unknowns(&layout) > MOST_UNKNOWNS)
+    if (!fits || !crease_explore_keep_net(&layout, bounds) ||
+        unknowns(&layout) > CREASE_EXPLORED_UNKNOWNS)
         return CREASE_OK;
     return try_layout(context, draft, &layout, MARGIN, taken);
 }
@@ -79,7 +80,7 @@ static bool finer(const crease_draft *draft, const crease_bounds *bounds, int ma
                 return false;
             out->axis[d].smooth = factor * (out->axis[d].smooth + 1) - 1;
         }
-    return unknowns(out) <= MOST_UNKNOWNS &&
+    return unknowns(out) <= CREASE_EXPLORED_UNKNOWNS &&
         ((double)unknowns(out) <= draft->samples->used || unknowns(out) <= 256);
 }
 

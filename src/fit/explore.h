@@ -8,6 +8,9 @@
 #include "fit/draft.h"
 #include "fit/scan.h"
 
+/* Control points of the largest net that is tried. */
+enum { CREASE_EXPLORED_UNKNOWNS = 4096 };
+
 /* What the caller allows. */
 typedef struct crease_bounds {
     size_t net[2];    /* control points, or 0: as many as the data ask for */

@@ -21,11 +21,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_EXPLORED = 10000, MOST_ROWS = 1024, LEAST_POINTS = 6, MOST_FOR_GAPS = 7 };
+enum { MOST_EXPLORED = 10000, MOST_ROWS = 2048, LEAST_POINTS = 6, MOST_FOR_GAPS = 7 };
 
 typedef struct work {
     const crease_sheet_options *options;
     crease_bounds bounds;
+    bool large; /* the net asked for is too large to choose with; it is fitted at the end */
     size_t count;
     const double *points;
     double epsilon;
@@ -161,7 +162,7 @@ static crease_status hold_back(crease_context *context, work *w)
     crease_status status = CREASE_OK;
     bool done = draft->fixed_lambda >= 0.0;
     while (status == CREASE_OK && !done && !crease_draft_bounded(draft)) {
-        if (draft->lambda + 1 < CREASE_LAMBDAS) {
+        if (draft->lambda + 1 < (w->large ? CREASE_LAMBDAS - 1 : CREASE_LAMBDAS)) {
             draft->lambda++;
         } else {
             draft->layout.axis[0].line_count = draft->layout.axis[1].line_count = 0;
@@ -173,6 +174,33 @@ static crease_status hold_back(crease_context *context, work *w)
         status = crease_draft_fit(context, draft, 3, CREASE_CHOICE_NONE);
     }
     return status;
+}
+
+/* The large net that was asked for, with the creases of a smaller one. */
+static crease_status enlarge(crease_context *context, work *w)
+{
+    crease_draft *const draft = &w->draft;
+    memcpy(w->bounds.net, w->options->net, sizeof w->bounds.net);
+    for (int d = 0; d < 2; d++) {
+        crease_layout_axis *const axis = &draft->layout.axis[d];
+        if (w->bounds.net[d] < crease_layout_count(&draft->layout, d) - axis->smooth) {
+            if (d == 0) /* the errors of the other direction's lines follow */
+                memmove(w->errors, w->errors + axis->line_count,
+                    draft->layout.axis[1].line_count * sizeof *w->errors);
+            axis->line_count = 0;
+        }
+    }
+    crease_explore_keep_net(&draft->layout, &w->bounds);
+    draft->lambda = CREASE_LAMBDAS / 2;
+    draft->scale = crease_samples_scale(draft->samples);
+    draft->redescending = draft->orthogonal = false;
+    crease_draft_place(draft);
+    crease_status status = crease_draft_fit(context, draft, 2, CREASE_CHOICE_NEAR);
+    draft->scale = crease_samples_scale(draft->samples);
+    draft->redescending = draft->orthogonal = true;
+    if (status == CREASE_OK)
+        status = crease_draft_fit(context, draft, 2, CREASE_CHOICE_NONE);
+    return status == CREASE_OK ? hold_back(context, w) : status;
 }
 
 /* The final fit, on all points. */
@@ -191,6 +219,8 @@ static crease_status finish(crease_context *context, work *w, crease_samples *sa
         status = hold_back(context, w);
     if (status == CREASE_OK)
         status = crease_lines_errors(context, &w->draft, w->errors);
+    if (status == CREASE_OK && w->large)
+        status = enlarge(context, w);
     if (status == CREASE_OK)
         status =
             crease_height_surface(context, &w->draft.height, &w->draft.frame, &w->sheet->surface);
@@ -282,8 +312,8 @@ crease_status crease_sheet_fit(crease_context *context, const crease_cloud *clou
     if (status != CREASE_OK)
         return status;
     work w = {.options = &chosen,
-        .bounds = {.net = {chosen.net[0], chosen.net[1]},
-            .creases = chosen.creases < 0 ? CREASE_MOST_LINES : (size_t)chosen.creases,
+        .large = chosen.net[0] * chosen.net[1] > CREASE_EXPLORED_UNKNOWNS,
+        .bounds = {.creases = chosen.creases < 0 ? CREASE_MOST_LINES : (size_t)chosen.creases,
             .tolerance = chosen.tolerance},
         .count = crease_cloud_count(cloud),
         .points = crease_cloud_points(cloud),
@@ -292,6 +322,8 @@ crease_status crease_sheet_fit(crease_context *context, const crease_cloud *clou
         .draft = {.layout = {.order = chosen.order},
             .lambda = CREASE_LAMBDAS / 2,
             .fixed_lambda = chosen.smoothing}};
+    if (!w.large)
+        memcpy(w.bounds.net, chosen.net, sizeof w.bounds.net);
     if (w.count < LEAST_POINTS)
         return crease_fail(context, CREASE_ERROR_TOO_FEW_POINTS,
             "sheet: %zu points; a sheet needs at least %d, give more", w.count, LEAST_POINTS);

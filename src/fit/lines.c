@@ -86,9 +86,8 @@ static void add_sample(const crease_draft *draft, size_t i, equations *e, double
             e->reduced[c * MOST + k] += scaled * columns[k];
         for (size_t a = 0; a < order; a++)
             for (size_t b = 0; b < order; b++)
-                mixed[c * draft->system.size +
-                    crease_system_index(
-                        &draft->system, support.first[0] + a, support.first[1] + b)] +=
+                mixed[c * draft->system.size + (support.first[0] + a) * draft->height.count[1] +
+                    support.first[1] + b] +=
                     scaled * s->tilt[i] * support.values[0][a] * support.values[1][b];
     }
 }
@@ -150,8 +149,7 @@ static void hold_undetermined(const crease_draft *draft, const double *whole, eq
 }
 
 /* Eliminates the control points. */
-static crease_status build(
-    crease_context *context, const crease_draft *draft, bool turn, equations *e)
+static crease_status build(crease_context *context, crease_draft *draft, bool turn, equations *e)
 {
     memset(e, 0, sizeof *e);
     e->lines = line_count(&draft->layout);
@@ -164,8 +162,8 @@ static crease_status build(
         if (draft->samples->weight[i] > 0.0)
             add_sample(draft, i, e, mixed);
     double *const solved = mixed + MOST * size;
-    memcpy(solved, mixed, e->count * size * sizeof *mixed);
-    crease_system_solve_many(&draft->system, solved, e->count);
+    const crease_status status =
+        crease_system_solve_others(context, &draft->system, mixed, e->count, solved);
     double whole[MOST];
     for (size_t c = 0; c < e->count; c++) {
         whole[c] = e->reduced[c * MOST + c];
@@ -175,7 +173,7 @@ static crease_status build(
     }
     hold_undetermined(draft, whole, e);
     free(mixed);
-    return CREASE_OK;
+    return status;
 }
 
 /* The system of the determined steps, packed; returns their number and their places. */
@@ -287,7 +285,7 @@ crease_status crease_lines_refine(
 }
 
 crease_status crease_lines_errors(
-    crease_context *context, const crease_draft *draft, double errors[2 * CREASE_MOST_LINES])
+    crease_context *context, crease_draft *draft, double errors[2 * CREASE_MOST_LINES])
 {
     equations e;
     memset(errors, 0, 2 * CREASE_MOST_LINES * sizeof *errors);

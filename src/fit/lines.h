@@ -14,6 +14,6 @@ crease_status crease_lines_refine(
 /* Standard error of each line's position, in the order of the layout, direction 0 first; 0 where
  * the points do not determine it. */
 crease_status crease_lines_errors(
-    crease_context *context, const crease_draft *draft, double errors[2 * CREASE_MOST_LINES]);
+    crease_context *context, crease_draft *draft, double errors[2 * CREASE_MOST_LINES]);
 
 #endif

@@ -6,13 +6,14 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/select.h"
+#include "space/morton.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { GRAIN = 16384, FOOT_STEPS = 3 };
+enum { GRAIN = 16384, FOOT_STEPS = 3, MANY = 65536 };
 
 /* Of an outlier: next to nothing, but where there are only outliers they must do. */
 static const double LEAST_WEIGHT = 1e-7;
@@ -31,6 +32,24 @@ static crease_status allocate_all(crease_context *context, crease_samples *s)
     return complete ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
 }
 
+/* What is near in space comes near in memory. */
+static crease_status sort(crease_context *context, crease_samples *s)
+{
+    uint64_t *keys = crease_allocate(context, s->count, sizeof *keys);
+    s->order = crease_allocate(context, s->count, sizeof *s->order);
+    const crease_status status = keys && s->order
+        ? crease_morton_sort(context, s->source, s->count, keys, s->order)
+        : CREASE_ERROR_NO_MEMORY;
+    free(keys);
+    return status;
+}
+
+/* Number of the point that is sample i. */
+static size_t number_of(const crease_samples *s, size_t i)
+{
+    return s->order ? s->order[i] : i * s->step;
+}
+
 crease_status crease_samples_create(crease_context *context, const double *points,
     const double *keep, size_t count, size_t step, double spacing, double epsilon,
     crease_samples *out)
@@ -39,16 +58,20 @@ crease_status crease_samples_create(crease_context *context, const double *point
         .step = step,
         .source = points,
         .spacing = spacing * sqrt((double)step)};
-    if (allocate_all(context, out) != CREASE_OK) {
+    crease_status status = allocate_all(context, out);
+    if (status == CREASE_OK && step == 1 && count > MANY)
+        status = sort(context, out);
+    if (status != CREASE_OK) {
         crease_samples_free(out);
-        return CREASE_ERROR_NO_MEMORY;
+        return status;
     }
     double farthest = 0.0;
     for (size_t i = 0; i < out->count; i++) {
-        out->prior[i] = out->weight[i] = keep[i * step];
+        const size_t number = number_of(out, i);
+        out->prior[i] = out->weight[i] = keep[number];
         out->used += out->prior[i];
         for (size_t c = 0; c < 3; c++)
-            farthest = fmax(farthest, fabs(points[3 * i * step + c]));
+            farthest = fmax(farthest, fabs(points[3 * number + c]));
     }
     out->rounding = fmax(DBL_MIN, 4.0 * epsilon * farthest);
     return CREASE_OK;
@@ -56,6 +79,7 @@ crease_status crease_samples_create(crease_context *context, const double *point
 
 void crease_samples_free(crease_samples *samples)
 {
+    free(samples->order);
     free(samples->points);
     free(samples->uv);
     free(samples->target);
@@ -75,7 +99,7 @@ void crease_samples_place(
         low[c] = INFINITY, high[c] = -INFINITY;
     for (size_t i = 0; i < samples->count; i++) {
         double *const p = samples->points + 3 * i;
-        crease_frame_enter(frame, samples->source + 3 * i * samples->step, 1, p);
+        crease_frame_enter(frame, samples->source + 3 * number_of(samples, i), 1, p);
         for (size_t c = 0; c < 2; c++) {
             samples->uv[2 * i + c] = p[c];
             if (samples->prior[i] > 0.0) {

@@ -10,6 +10,7 @@
 typedef struct crease_samples {
     size_t count, step;
     const double *source; /* the cloud's points, of which every step-th is a sample */
+    uint32_t *order;      /* numbers of the points where there are many, neighbours together */
     double *points;       /* count x 3, in the frame */
     double *uv;           /* count x 2: parameters of each point's foot on the sheet */
     double *target;       /* height that the sheet should have over uv */

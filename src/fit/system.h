@@ -1,59 +1,73 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* The normal equations of a penalised least-squares fit of a height: banded matrices, so that
- * LAPACK solves them.
+/* The normal equations of a penalised least-squares fit over the knots of a net.
  *
- * Minimised is sum_i weight_i tilt_i^2 (target_i - f(uv_i))^2 + lambda scale * bending(f), with
- * bending the integral of f_xx^2 + 2 f_xy^2 + f_yy^2 over the smooth parts: creases cost nothing.
- * (Order 2: f_x^2 + f_y^2.) `scale` makes lambda a pure number: both matrices have the same trace
- * at lambda = 1.
+ * Minimised is sum_i weight_i tilt_i^2 (target_i - f(uv_i))^2 + lambda scale * bending(f) +
+ * hold * tension(f), see there for the energies. `scale` makes lambda a pure number: the matrices
+ * of the sum and of the bending have the same trace at lambda = 1. There may be several targets, as
+ * the coordinates of a point; each has its right side and its solution.
  *
- * Where points are missing nothing would hold such a sheet: it goes on as steeply as it came. There
- * bending costs nothing, and hold * tension(f) is added instead, with tension the integral of
- * f_x^2 + f_y^2 and of some bending over the gaps: a membrane, which stays within what surrounds
- * it. */
+ * Unknown number i count[1] + j is control point (i, j). Few unknowns, or a narrow band of them,
+ * are solved for by LAPACK, exactly; many by conjugate gradients, see fit/multigrid.h. */
 #ifndef CREASE_FIT_SYSTEM_H
 #define CREASE_FIT_SYSTEM_H
 
-#include "fit/gaps.h"
+#include "fit/assemble.h"
+#include "fit/bending.h"
+#include "fit/multigrid.h"
 
 typedef struct crease_system {
-    size_t size;      /* unknowns */
-    size_t width;     /* of the band: diagonals below the main one, plus one */
-    size_t stride[2]; /* number of the unknown: stride[0] i + stride[1] j; the smaller one is 1 */
-    double *normal;   /* size x width, as LAPACK stores a lower band */
-    double *bending;  /* the same */
-    double *tension;  /* the same; NULL when there are no gaps */
-    double hold;      /* weight of the tension; set by whoever solves */
-    double *factor;   /* Cholesky factor of normal + lambda scale bending + hold tension */
-    double *right;    /* size */
-    double *solution; /* size */
-    double *probes;   /* 2 x CREASE_PROBES x size: vectors that the trace is taken with, images */
-    double lambda;    /* of the factor */
+    size_t size, sides, count[2];
+    crease_gaps gaps;
+    crease_bending energy;
+    crease_stencil normal;
+    crease_stencil bending, tension; /* kept where there are few unknowns */
+    double traces[2];                /* of bending and tension */
+    double hold;                     /* weight of the tension; set by whoever solves */
+    double lambda;                   /* of the factor */
+    double *right;                   /* sides x size */
+    double *squares;                 /* of each side: sum of weight tilt^2 target^2 */
+    double *probes; /* size x (probe_count + 2): vectors that the trace is taken with; scratch */
+    size_t probe_count;
+    uint64_t added; /* observations so far */
+
+    crease_stencil whole; /* band: normal + lambda scale bending + hold tension */
+    size_t stride[2];     /* band: number of an unknown in it: stride[0] i + stride[1] j */
+    size_t width;         /* band: diagonals below the main one, plus one */
+    double *factor;       /* band: its Cholesky factor */
+    double *permuted;     /* band: sides in its order; NULL where that is ours */
+
+    crease_multigrid *multigrid; /* NULL: band */
 } crease_system;
 
-enum { CREASE_PROBES = 8 };
-
-/* Makes room, and computes the matrices of bending and tension. */
+/* Makes room for `sides` right sides. Of the height only the knots are looked at; the gaps are
+ * taken over, also on failure. Errors: NO_MEMORY, CANCELLED. */
 crease_status crease_system_create(crease_context *context, const crease_height *height,
-    const crease_gaps *gaps, crease_system *out);
+    size_t sides, crease_gaps *gaps, crease_system *out);
 void crease_system_free(crease_system *system);
-/* Number of the unknown that is control point i, j. */
-size_t crease_system_index(const crease_system *system, size_t i, size_t j);
-/* The normal matrix and the right side from the samples. Threaded. */
-crease_status crease_system_assemble(crease_context *context, crease_system *system,
-    const crease_height *height, const crease_samples *samples);
-/* Factors for this lambda; false when the matrix is not positive definite. */
-bool crease_system_factor(crease_system *system, double lambda);
-/* Coefficients of the height from the right side; needs the factor. */
-void crease_system_solve(crease_system *system, crease_height *height);
-/* Solves in place for `count` further right sides of `size` numbers each. */
-void crease_system_solve_many(const crease_system *system, double *sides, size_t count);
+/* Adds observations to the normal matrix and the right sides, after crease_system_clear(). Errors:
+ * NO_MEMORY, CANCELLED. */
+crease_status crease_system_add(crease_context *context, crease_system *system,
+    const crease_height *height, const crease_observations *observations);
+void crease_system_clear(crease_system *system);
+/* Makes ready to solve with this lambda; *solvable: the matrix is positive definite. Errors:
+ * NO_MEMORY, CANCELLED. */
+crease_status crease_system_factor(
+    crease_context *context, crease_system *system, double lambda, bool *solvable);
+/* Solves for all right sides: sides x size. solutions: zeros, or what they are believed to be
+ * about. Iterated ones are within 1e-7 of the least sum of squares. Errors: CANCELLED. */
+crease_status crease_system_solve(
+    crease_context *context, crease_system *system, double *solutions);
+/* The same for `count` other right sides of `size` numbers each. */
+crease_status crease_system_solve_others(crease_context *context, crease_system *system,
+    const double *sides, size_t count, double *solutions);
 /* Effective number of free parameters, the trace of factor^-1 normal: exact for few unknowns, else
  * estimated.
  * Based on: Hutchinson. A stochastic estimator of the trace of the influence matrix for Laplacian
- * smoothing splines. 1990. */
-double crease_system_freedom(crease_system *system);
+ * smoothing splines. 1990; for iterations with a random sign at each observation instead of at each
+ * unknown, so that an error of the solution counts by its square. Errors: CANCELLED. */
+crease_status crease_system_freedom(
+    crease_context *context, crease_system *system, double *freedom);
 
 #endif
