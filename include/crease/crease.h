@@ -647,9 +647,20 @@ CREASE_API crease_sheet_options crease_sheet_options_default(void);
  * line), NO_MEMORY, CANCELLED. */
 CREASE_API crease_status crease_sheet_suits(
     crease_context *context, const crease_cloud *cloud, bool *suits);
-/** Errors: ARGUMENT, TOO_FEW_POINTS, DEGENERATE, NUMERIC, NO_MEMORY, CANCELLED. */
+/** Fits a sheet. When the orientation is automatic, and neither net nor smoothing is prescribed,
+ * the creases are looked for as by crease_network_find(): curved ones that run side by side become
+ * knot lines, and the patch may be folded so that it is no height field; all coordinates are
+ * fitted. Otherwise, or when straight lines will do, the sheet is a height over a rectangle. O(n
+ * log n) for a fixed number of control points. Errors: ARGUMENT, TOO_FEW_POINTS, DEGENERATE,
+ * NUMERIC, NO_MEMORY, CANCELLED. */
 CREASE_API crease_status crease_sheet_fit(crease_context *context, const crease_cloud *cloud,
     const crease_sheet_options *options, crease_sheet **out);
+/** Tells whether a sheet carries the creases of its cloud: whether its points are no further from
+ * it than their noise explains, the creases of the network lie on its lines, within half a spacing
+ * but for a tenth of their length, and it bends sharply nowhere else. regions and network: of the
+ * cloud that the sheet was fitted to. Errors: ARGUMENT (of another cloud), NO_MEMORY, CANCELLED. */
+CREASE_API crease_status crease_sheet_carries(crease_context *context, const crease_sheet *sheet,
+    const crease_regions *regions, const crease_network *network, bool *carries);
 
 CREASE_API void crease_sheet_free(crease_sheet *sheet);
 CREASE_API const crease_surface *crease_sheet_surface(const crease_sheet *sheet);

@@ -324,6 +324,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "crease_sheet_options_default": (SheetOptions,),
     "crease_sheet_suits": (c_int, _object, _object, POINTER(c_bool)),
     "crease_sheet_fit": (c_int, _object, _object, POINTER(SheetOptions), _out),
+    "crease_sheet_carries": (c_int, _object, _object, _object, _object, POINTER(c_bool)),
     "crease_sheet_free": (None, _object),
     "crease_sheet_surface": (_object, _object),
     "crease_sheet_line_count": (c_size_t, _object),

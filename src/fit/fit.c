@@ -10,6 +10,7 @@
 #include "averaging/orient.h"
 #include "base/memory.h"
 #include "base/vector.h"
+#include "fit/curved.h"
 #include "fit/explore.h"
 #include "fit/isolate.h"
 #include "fit/lines.h"
@@ -266,6 +267,21 @@ static crease_status project(crease_context *context, work *w)
     return status;
 }
 
+/* Curved creases, and folds that no height field has, unless the options ask for a height field. */
+static crease_status try_curved(crease_context *context, const crease_cloud *cloud, work *w)
+{
+    const crease_sheet_options *const o = w->options;
+    if (o->orientation != CREASE_ORIENTATION_AUTOMATIC || o->net[0] || o->net[1] ||
+        o->creases == 0 || o->smoothing >= 0.0)
+        return CREASE_OK;
+    crease_status status = crease_curved_fit(context, cloud, o, &w->sheet);
+    if (status == CREASE_OK && w->sheet) {
+        w->sheet->point_count = w->count;
+        status = project(context, w);
+    }
+    return status;
+}
+
 static crease_status run(crease_context *context, work *w)
 {
     crease_samples all = {0};
@@ -330,7 +346,9 @@ crease_status crease_sheet_fit(crease_context *context, const crease_cloud *clou
     warn_of_small_net(context, &chosen);
     const int blas_threads = openblas_get_num_threads();
     openblas_set_num_threads(1);
-    status = run(context, &w);
+    status = try_curved(context, cloud, &w);
+    if (status == CREASE_OK && !w.sheet)
+        status = run(context, &w);
     openblas_set_num_threads(blas_threads);
     if (status == CREASE_OK) {
         *out = w.sheet;

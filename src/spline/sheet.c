@@ -65,23 +65,30 @@ const double *crease_sheet_variance(const crease_sheet *sheet)
     return sheet->variance;
 }
 
+double crease_sheet_bend(const crease_surface *surface, int direction, const double uv[2])
+{
+    double normal[2][3], cross[3];
+    for (int side = 0; side < 2; side++) {
+        crease_side sides[2] = {CREASE_SIDE_RIGHT, CREASE_SIDE_RIGHT};
+        sides[direction] = side ? CREASE_SIDE_LEFT : CREASE_SIDE_RIGHT;
+        crease_surface_normal(surface, uv, sides, normal[side]);
+    }
+    crease_vector_cross(normal[0], normal[1], cross);
+    return atan2(crease_vector_length(cross), crease_vector_dot(normal[0], normal[1])) *
+        57.295779513082321;
+}
+
 double crease_sheet_dihedral(const crease_surface *surface, int direction, double parameter)
 {
     double domain[2], sum = 0.0;
     crease_surface_domain(surface, 1 - direction, domain);
     for (int i = 0; i < STATIONS; i++) {
-        double uv[2], normal[2][3], cross[3];
+        double uv[2];
         uv[direction] = parameter;
         uv[1 - direction] = domain[0] + (domain[1] - domain[0]) * (i + 0.5) / STATIONS;
-        for (int side = 0; side < 2; side++) {
-            crease_side sides[2] = {CREASE_SIDE_RIGHT, CREASE_SIDE_RIGHT};
-            sides[direction] = side ? CREASE_SIDE_LEFT : CREASE_SIDE_RIGHT;
-            crease_surface_normal(surface, uv, sides, normal[side]);
-        }
-        crease_vector_cross(normal[0], normal[1], cross);
-        sum += atan2(crease_vector_length(cross), crease_vector_dot(normal[0], normal[1]));
+        sum += crease_sheet_bend(surface, direction, uv);
     }
-    return 180.0 - sum / STATIONS * 57.295779513082321;
+    return 180.0 - sum / STATIONS;
 }
 
 static crease_status take_border(

@@ -20,6 +20,9 @@ struct crease_sheet {
     double *variance;   /* point_count or NULL */
 };
 
+/* Angle in degrees by which the surface bends at a place on a line of constant parameter: 0 smooth.
+ */
+double crease_sheet_bend(const crease_surface *surface, int direction, const double uv[2]);
 /* Mean dihedral angle (degrees, 180 = flat) of the surface along a line of constant parameter. */
 double crease_sheet_dihedral(const crease_surface *surface, int direction, double parameter);
 

@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* Whether a sheet has the creases that its cloud's regions have between them, and follows the rest
+ * as closely as the noise lets it. */
+#include "base/memory.h"
+#include "base/select.h"
+#include "base/vector.h"
+#include "spline/sheet.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_PARTS = 4000, CHORDS = 64 };
+
+static const double EXCESS = 1.25;     /* of the residual over the noise */
+static const double ASTRAY = 0.5;      /* spacings between a crease and the sheet's line */
+static const double UNKNOWN = 3.0;     /* spacings from every crease: a bend of the sheet's own */
+static const double LEAST_BEND = 10.0; /* degrees */
+static const double TOLERATED = 0.1;   /* of the length of all creases, or of all bends */
+
+/* Places along curves, densely. */
+typedef struct stations {
+    size_t count, room;
+    double *places;
+} stations;
+
+static crease_status add_place(crease_context *context, const double place[3], stations *out)
+{
+    if (out->count == out->room) {
+        const size_t room = 2 * out->room + 64;
+        double *const more = crease_reallocate(context, out->places, room, 3 * sizeof *more);
+        if (!more)
+            return CREASE_ERROR_NO_MEMORY;
+        out->places = more;
+        out->room = room;
+    }
+    memcpy(out->places + 3 * out->count++, place, 3 * sizeof *place);
+    return CREASE_OK;
+}
+
+static size_t parts_of(double length, double step)
+{
+    return (size_t)fmin(fmax(ceil(length / step), 1.0), MOST_PARTS);
+}
+
+static crease_status add_curve(
+    crease_context *context, const crease_curve *curve, double length, double step, stations *out)
+{
+    crease_status status = CREASE_OK;
+    double domain[2];
+    crease_curve_domain(curve, domain);
+    const size_t parts = parts_of(length, step);
+    for (size_t i = 0; i <= parts && status == CREASE_OK; i++) {
+        const double share = (double)i / (double)parts;
+        double place[3];
+        crease_curve_evaluate(
+            curve, domain[0] + (domain[1] - domain[0]) * share, CREASE_SIDE_RIGHT, 0, place);
+        status = add_place(context, place, out);
+    }
+    return status;
+}
+
+/* How many of the places are further than `far` from all of the others. */
+static crease_status count_far(crease_context *context, const stations *places,
+    const stations *others, double far, size_t *count)
+{
+    crease_tree *tree = NULL;
+    *count = places->count;
+    if (places->count == 0 || others->count == 0)
+        return CREASE_OK;
+    uint32_t *const near = crease_allocate(context, places->count, sizeof *near);
+    double *const squares = crease_allocate(context, places->count, sizeof *squares);
+    crease_status status = near && squares
+        ? crease_tree_create(context, others->places, others->count, &tree)
+        : CREASE_ERROR_NO_MEMORY;
+    if (status == CREASE_OK)
+        status =
+            crease_tree_nearest(context, tree, places->places, places->count, 1, near, squares);
+    for (size_t i = 0; i < places->count && status == CREASE_OK; i++)
+        *count -= squares[i] <= far * far;
+    crease_tree_free(tree);
+    free(near);
+    free(squares);
+    return status;
+}
+
+static void place_on_line(
+    const crease_sheet *sheet, size_t line, double share, double uv[2], double place[3])
+{
+    const crease_line l = sheet->lines[line];
+    double domain[2];
+    crease_surface_domain(sheet->surface, 1 - l.direction, domain);
+    uv[l.direction] = l.parameter;
+    uv[1 - l.direction] = domain[0] + (domain[1] - domain[0]) * share;
+    crease_surface_point(sheet->surface, uv, place);
+}
+
+static double line_length(const crease_sheet *sheet, size_t line)
+{
+    double uv[2], last[3], place[3], length = 0.0;
+    place_on_line(sheet, line, 0.0, uv, last);
+    for (int i = 1; i <= CHORDS; i++) {
+        place_on_line(sheet, line, (double)i / CHORDS, uv, place);
+        length += crease_vector_distance(place, last);
+        memcpy(last, place, sizeof last);
+    }
+    return length;
+}
+
+/* The places of a line at which the sheet bends. */
+static crease_status add_bends(
+    crease_context *context, const crease_sheet *sheet, size_t line, double step, stations *out)
+{
+    crease_status status = CREASE_OK;
+    const size_t parts = parts_of(line_length(sheet, line), step);
+    for (size_t i = 0; i <= parts && status == CREASE_OK; i++) {
+        double uv[2], place[3];
+        place_on_line(sheet, line, (double)i / (double)parts, uv, place);
+        if (crease_sheet_bend(sheet->surface, sheet->lines[line].direction, uv) >= LEAST_BEND)
+            status = add_place(context, place, out);
+    }
+    return status;
+}
+
+static crease_status creases_agree(
+    crease_context *context, const crease_sheet *sheet, const crease_network *network, bool *agree)
+{
+    const double spacing = crease_network_spacing(network);
+    stations creases = {0}, bends = {0};
+    size_t astray = 0, unknown = 0;
+    crease_status status = CREASE_OK;
+    for (size_t i = 0; i < crease_network_count(network) && status == CREASE_OK; i++)
+        status = add_curve(context, crease_network_curves(network)[i],
+            crease_network_at(network, i).length, 0.25 * spacing, &creases);
+    for (size_t l = 0; l < sheet->line_count && status == CREASE_OK; l++)
+        status = add_bends(context, sheet, l, 0.25 * spacing, &bends);
+    if (status == CREASE_OK)
+        status = count_far(context, &creases, &bends, ASTRAY * spacing, &astray);
+    if (status == CREASE_OK)
+        status = count_far(context, &bends, &creases, UNKNOWN * spacing, &unknown);
+    *agree = status == CREASE_OK && (double)astray <= TOLERATED * (double)creases.count &&
+        (double)unknown <= TOLERATED * (double)bends.count;
+    free(creases.places);
+    free(bends.places);
+    return status;
+}
+
+/* Robust standard deviation of the points that have a region. */
+static crease_status residual_scale(crease_context *context, const crease_sheet *sheet,
+    const crease_regions *regions, double *scale)
+{
+    size_t n = 0;
+    double *const values = crease_allocate(context, sheet->point_count, sizeof *values);
+    if (!values)
+        return CREASE_ERROR_NO_MEMORY;
+    for (size_t i = 0; i < sheet->point_count; i++)
+        if (crease_regions_labels(regions)[i] >= 0)
+            values[n++] = fabs(sheet->deviations[i]);
+    *scale = n ? 1.4826 * crease_select(values, n, n / 2) : 0.0;
+    free(values);
+    return CREASE_OK;
+}
+
+crease_status crease_sheet_carries(crease_context *context, const crease_sheet *sheet,
+    const crease_regions *regions, const crease_network *network, bool *carries)
+{
+    double scale = 0.0;
+    *carries = false;
+    if (crease_regions_point_count(regions) != sheet->point_count)
+        return crease_fail(context, CREASE_ERROR_ARGUMENT,
+            "sheet: regions of %zu points for a sheet of %zu; give those of the same cloud",
+            crease_regions_point_count(regions), sheet->point_count);
+    crease_status status = residual_scale(context, sheet, regions, &scale);
+    if (status != CREASE_OK || !(scale <= EXCESS * crease_regions_sigma(regions)))
+        return status;
+    return creases_agree(context, sheet, network, carries);
+}
