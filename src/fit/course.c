@@ -14,7 +14,8 @@
 enum { NEAR = 8, MOST_STATIONS = 400, LEAST_STATIONS = 8, SMOOTHED = 2 };
 
 /* In spacings. */
-static const double APART = 3.0, TO_JOIN = 10.0, BESIDE = 3.0, CLEAR = 4.0;
+static const double APART = 10.0, TO_JOIN = 6.0, BESIDE = 3.0, CLEAR = 4.0;
+static const double AHEAD = 0.5;       /* slope, at most, of the way to where a crease goes on */
 static const double TURNED_BACK = 0.1; /* of the length */
 static const double SLANTED = 0.1; /* square of the least cosine between a crease and the axis */
 static const double SHORT = 12.0;  /* spacings: a crease whose direction says nothing */
@@ -159,7 +160,7 @@ static int by_begin(const void *a, const void *b)
 static size_t course_before(const trail *trails, size_t index, size_t courses, double spacing)
 {
     size_t best = courses;
-    double nearest = TO_JOIN * spacing;
+    double nearest = INFINITY;
     for (size_t c = 0; c < courses; c++) {
         const trail *last = NULL;
         for (size_t i = 0; i < index; i++)
@@ -167,7 +168,9 @@ static size_t course_before(const trail *trails, size_t index, size_t courses, d
                 last = trails + i;
         const double *const end = last->plane + 2 * (last->count - 1);
         const double x = trails[index].plane[0] - end[0], y = trails[index].plane[1] - end[1];
-        if (y > -APART * spacing && hypot(x, y) < nearest) {
+        /* A line may go on where the crease has faded out and comes again. */
+        if (y > -APART * spacing && fabs(x) < fmax(TO_JOIN * spacing, AHEAD * y) &&
+            hypot(x, y) < nearest) {
             nearest = hypot(x, y);
             best = c;
         }

@@ -18,6 +18,7 @@
 
 enum {
     MOST_EXPLORED = 20000,
+    MOST_GROWN = 200000, /* points that a finer net is tried with */
     LEAST_POINTS = 200,
     FIRST_SPANS = 4,
     MOST_CONTROLS = 4096,
@@ -31,6 +32,7 @@ static const double CONTROLS = 0.25;   /* for each point, at most */
 static const double NEGLIGIBLE = 1e-9; /* spacings */
 static const double EXCESS = 1.25; /* of the residual over the noise, for a sheet that carries */
 static const double NEAR = 3.0;    /* spacings from a line: either side is tried */
+static const double REACH = 4.0;   /* spacings from the points explored */
 static const double CAUCHY = 2.385;
 static const double CLEAR = 2.0; /* standard deviations of the noise from a line */
 
@@ -222,6 +224,33 @@ static crease_status begin(crease_context *context, work *w)
     return status;
 }
 
+/* From here on with all points, not only those explored. */
+static crease_status take_all(crease_context *context, work *w, const crease_cloud *cloud)
+{
+    if (w->step == 1)
+        return CREASE_OK;
+    crease_feet all;
+    const size_t count = crease_cloud_count(cloud);
+    crease_status status = crease_feet_create(context, crease_cloud_points(cloud), count, &all);
+    if (status == CREASE_OK)
+        status = crease_feet_borrow(context, &w->feet, REACH * w->spread.spacing, &all);
+    if (status == CREASE_OK) {
+        crease_feet_free(&w->feet);
+        w->feet = all;
+        free(w->scratch);
+        w->scratch = crease_allocate(context, count, sizeof *w->scratch);
+        if (!w->scratch)
+            status = CREASE_ERROR_NO_MEMORY;
+    } else {
+        crease_feet_free(&all);
+    }
+    if (status == CREASE_OK)
+        status = settle(context, w, &w->feet, ROUNDS, NEAR);
+    if (status == CREASE_OK && count <= MOST_GROWN)
+        status = grow(context, w);
+    return status;
+}
+
 static bool carries(work *w)
 {
     const double noise = crease_regions_sigma(w->regions);
@@ -286,6 +315,7 @@ static crease_status describe(crease_context *context, const work *w, crease_she
         .knots = {basis->knots[0], basis->knots[1]},
         .control_points = w->form.net};
     crease_status status = crease_surface_create(context, &parts, &sheet->surface);
+    sheet->frame = (crease_frame){.rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
     sheet->lines = crease_allocate(context, axis->line_count, sizeof *sheet->lines);
     if (status == CREASE_OK && !sheet->lines)
         status = CREASE_ERROR_NO_MEMORY;
@@ -296,7 +326,8 @@ static crease_status describe(crease_context *context, const work *w, crease_she
     return status;
 }
 
-static crease_status run(crease_context *context, work *w, crease_sheet **out)
+static crease_status run(
+    crease_context *context, work *w, const crease_cloud *cloud, crease_sheet **out)
 {
     crease_status status = lay_out(context, w);
     if (status != CREASE_OK || w->courses.count == 0)
@@ -307,7 +338,10 @@ static crease_status run(crease_context *context, work *w, crease_sheet **out)
     if (status == CREASE_OK && !(w->options->tolerance > 0.0))
         status = thin_out(context, w);
     if (status == CREASE_OK)
-        status = settle(context, w, &w->feet, LAST_ROUNDS, NEAR);
+        status = take_all(context, w, cloud);
+    if (status == CREASE_OK)
+        status =
+            settle(context, w, &w->feet, w->feet.count <= MOST_GROWN ? LAST_ROUNDS : ROUNDS, NEAR);
     if (status != CREASE_OK || !carries(w))
         return status;
     crease_sheet *sheet = crease_allocate(context, 1, sizeof *sheet);
@@ -330,10 +364,12 @@ crease_status crease_curved_fit(crease_context *context, const crease_cloud *clo
     if (crease_cloud_count(cloud) < LEAST_POINTS)
         return CREASE_OK;
     crease_status status = survey(context, &w, cloud);
-    if (status == CREASE_OK && crease_network_count(w.network) > 0)
+    if (status != CREASE_OK && status != CREASE_ERROR_NO_MEMORY && status != CREASE_ERROR_CANCELLED)
+        status = CREASE_OK; /* no creases that could be told: a height field must do */
+    else if (status == CREASE_OK && crease_network_count(w.network) > 0)
         status = crease_straight(context, w.cloud, w.network, &straight);
     if (status == CREASE_OK && !straight)
-        status = run(context, &w, out);
+        status = run(context, &w, cloud, out);
     crease_form_free(&w.form);
     crease_feet_free(&w.feet);
     crease_courses_clear(&w.courses);

@@ -96,6 +96,48 @@ void crease_feet_free(crease_feet *feet)
     *feet = (crease_feet){.count = 0};
 }
 
+static crease_status borrow(crease_context *context, const crease_feet *from, double reach,
+    double *kept, uint32_t *number, uint32_t *near, double *squares, crease_feet *to)
+{
+    size_t count = 0;
+    crease_tree *tree = NULL;
+    for (size_t i = 0; i < from->count; i++)
+        if (from->prior[i] > 0.0) {
+            memcpy(kept + 3 * count, from->points + 3 * i, 3 * sizeof *kept);
+            number[count++] = (uint32_t)i;
+        }
+    if (count == 0)
+        return CREASE_OK;
+    crease_status status = crease_tree_create(context, kept, count, &tree);
+    if (status == CREASE_OK)
+        status = crease_tree_nearest(context, tree, to->points, to->count, 1, near, squares);
+    for (size_t i = 0; i < to->count && status == CREASE_OK; i++) {
+        const size_t other = number[near[i]];
+        to->strip[i] = from->strip[other];
+        memcpy(to->uv + 2 * i, from->uv + 2 * other, 2 * sizeof(double));
+        to->prior[i] = squares[i] <= reach * reach;
+    }
+    crease_tree_free(tree);
+    return status;
+}
+
+crease_status crease_feet_borrow(
+    crease_context *context, const crease_feet *from, double reach, crease_feet *to)
+{
+    double *const kept = crease_allocate(context, from->count, 3 * sizeof *kept);
+    uint32_t *const number = crease_allocate(context, from->count, sizeof *number);
+    uint32_t *const near = crease_allocate(context, to->count, sizeof *near);
+    double *const squares = crease_allocate(context, to->count, sizeof *squares);
+    const crease_status status = kept && number && near && squares
+        ? borrow(context, from, reach, kept, number, near, squares, to)
+        : CREASE_ERROR_NO_MEMORY;
+    free(kept);
+    free(number);
+    free(near);
+    free(squares);
+    return status;
+}
+
 /* The rectangle of a strip. */
 static void box_of(const crease_form *form, size_t strip, double low[2], double high[2])
 {

@@ -41,6 +41,10 @@ void crease_form_at(const crease_form *form, size_t strip, const double uv[2], d
 crease_status crease_feet_create(
     crease_context *context, const double *points, size_t count, crease_feet *out);
 void crease_feet_free(crease_feet *feet);
+/* Gives each point strip, parameters and prior of the nearest one of others that is not left out;
+ * points further than `reach` from all of them are left out. */
+crease_status crease_feet_borrow(
+    crease_context *context, const crease_feet *from, double reach, crease_feet *to);
 /* Moves the feet of all points to the nearest place of their strips, from where they are; a point
  * less than `near` from a line goes to the nearer one of its sides. Threaded. */
 crease_status crease_feet_move(

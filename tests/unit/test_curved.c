@@ -8,8 +8,9 @@
 #include "base/frame.h"
 #include "base/random.h"
 #include "fit/unroll.h"
+#include "spline/sheet.h"
 
-enum { COUNT = 4000 };
+enum { COUNT = 4000, MANY = 24000 };
 
 /* A place in space of a place in the unit square. */
 typedef void shape_of(double u, double v, double out[3]);
@@ -26,6 +27,30 @@ static void roof(double u, double v, double out[3])
     out[0] = u;
     out[1] = v;
     out[2] = 0.15 * v * v - 0.1 * u * v - 0.6 * fabs(off) + 0.2 * off * off;
+}
+
+static const double COURSES[2][3] = {{0.3, 0.06, 3.0}, {0.7, -0.05, 4.0}};
+
+static double one_of_two(int which, double y)
+{
+    return COURSES[which][0] + COURSES[which][1] * sin(COURSES[which][2] * y);
+}
+
+/* A ridge and a valley that wind each in its own way. */
+static void ridge_and_valley(double u, double v, double out[3])
+{
+    out[0] = u;
+    out[1] = v;
+    out[2] = 0.1 * v * v - 0.7 * fabs(u - one_of_two(0, v)) + 0.7 * fabs(u - one_of_two(1, v));
+}
+
+/* A ridge that fades out half-way. */
+static void fading(double u, double v, double out[3])
+{
+    const double share = fmax(0.0, 1.0 - v / 0.7);
+    out[0] = u;
+    out[1] = v;
+    out[2] = 0.1 * v * v - 0.7 * share * share * fabs(u - course(v));
 }
 
 /* A band folded by 100 degrees at u = 0.3 and by 110 at u = 0.65, sagging along v: nowhere a height
@@ -46,11 +71,12 @@ static void folded(double u, double v, double out[3])
     out[2] += 0.1 * v * (1.0 - v);
 }
 
-static crease_cloud *given_points(crease_context *context, shape_of *shape, double noise)
+static crease_cloud *given_number_of_points(
+    crease_context *context, shape_of *shape, size_t count, double noise)
 {
-    double *const points = malloc(COUNT * 3 * sizeof *points);
+    double *const points = malloc(count * 3 * sizeof *points);
     assert_non_null(points);
-    for (size_t i = 0; i < COUNT; i++) {
+    for (size_t i = 0; i < count; i++) {
         /* additive recurrence: even, in no rows */
         const double u = fmod(0.5 + 0.7548776662466927 * (double)i, 1.0);
         const double v = fmod(0.5 + 0.5698402909980532 * (double)i, 1.0);
@@ -59,11 +85,16 @@ static crease_cloud *given_points(crease_context *context, shape_of *shape, doub
             points[3 * i + c] += noise * crease_random_normal(7, 1, 3 * i + c);
     }
     const crease_cloud_parts parts = {
-        .count = COUNT, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
+        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
     crease_cloud *cloud = NULL;
     assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
     free(points);
     return cloud;
+}
+
+static crease_cloud *given_points(crease_context *context, shape_of *shape, double noise)
+{
+    return given_number_of_points(context, shape, COUNT, noise);
 }
 
 static crease_sheet *when_fitted(
@@ -154,6 +185,21 @@ static void given_noise_then_the_ridge_is_found_within_a_fraction_of_it(void **s
     crease_context_free(context);
 }
 
+static void given_more_points_than_are_explored_then_all_are_used(void **state)
+{
+    const double noise = 0.004;
+    crease_context *context = given_context();
+    crease_cloud *cloud = given_number_of_points(context, roof, MANY, noise);
+    crease_sheet *sheet = when_fitted(context, cloud, NULL);
+    assert_int_equal(crease_sheet_line_count(sheet), 1);
+    assert_int_equal(crease_sheet_point_count(sheet), MANY);
+    assert_near(ridge_error(sheet), 0.0, 0.3 * noise);
+    assert_near(rms_deviation(sheet), noise, 0.05 * noise);
+    crease_sheet_free(sheet);
+    crease_cloud_free(cloud);
+    crease_context_free(context);
+}
+
 static void given_a_height_field_over_straight_lines_then_it_does_not_carry_the_ridge(void **state)
 {
     crease_context *context = given_context();
@@ -189,6 +235,54 @@ static void given_a_band_folded_over_itself_then_the_sheet_follows_both_folds(vo
     }
     assert_near(rms_deviation(sheet), 0.0, 1e-4);
     assert_true(when_asked_whether_it_carries(context, cloud, sheet));
+    crease_sheet_free(sheet);
+    crease_cloud_free(cloud);
+    crease_context_free(context);
+}
+
+static void given_two_curved_creases_then_the_sheet_has_both(void **state)
+{
+    crease_context *context = given_context();
+    crease_cloud *cloud = given_points(context, ridge_and_valley, 0.002);
+    crease_sheet *sheet = when_fitted(context, cloud, NULL);
+    crease_surface **faces = NULL;
+    size_t count = 0;
+    assert_int_equal(crease_sheet_line_count(sheet), 2);
+    assert_int_equal(crease_sheet_faces(context, sheet, &faces, &count), CREASE_OK);
+    assert_int_equal(count, 3);
+    for (size_t l = 0; l < 2; l++)
+        for (int i = 0; i < 21; i++) {
+            double p[3];
+            place_on_line(sheet, l, i, p);
+            const double off[2] = {p[0] - one_of_two(0, p[1]), p[0] - one_of_two(1, p[1])};
+            assert_near(fmin(fabs(off[0]), fabs(off[1])), 0.0, 0.006);
+        }
+    crease_surfaces_free(faces, count);
+    crease_sheet_free(sheet);
+    crease_cloud_free(cloud);
+    crease_context_free(context);
+}
+
+static void given_a_ridge_that_fades_out_then_the_line_goes_on_smoothly(void **state)
+{
+    crease_context *context = given_context();
+    crease_cloud *cloud = given_points(context, fading, 0.002);
+    crease_sheet *sheet = when_fitted(context, cloud, NULL);
+    assert_int_equal(crease_sheet_line_count(sheet), 1);
+    const crease_surface *surface = crease_sheet_surface(sheet);
+    const crease_line line = crease_sheet_line(sheet, 0);
+    double domain[2];
+    crease_surface_domain(surface, 1 - line.direction, domain);
+    for (int i = 1; i < 20; i++) {
+        double uv[2], p[3];
+        uv[line.direction] = line.parameter;
+        uv[1 - line.direction] = domain[0] + (domain[1] - domain[0]) * i / 20.0;
+        crease_surface_point(surface, uv, p);
+        if (p[1] < 0.3)
+            assert_near(p[0], course(p[1]), 0.012);
+        else if (p[1] > 0.7)
+            assert_near(crease_sheet_bend(surface, line.direction, uv), 0.0, 5.0);
+    }
     crease_sheet_free(sheet);
     crease_cloud_free(cloud);
     crease_context_free(context);
@@ -292,8 +386,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(given_exact_points_of_a_winding_ridge_then_the_sheet_has_it),
         cmocka_unit_test(given_noise_then_the_ridge_is_found_within_a_fraction_of_it),
+        cmocka_unit_test(given_more_points_than_are_explored_then_all_are_used),
         cmocka_unit_test(given_a_height_field_over_straight_lines_then_it_does_not_carry_the_ridge),
         cmocka_unit_test(given_a_band_folded_over_itself_then_the_sheet_follows_both_folds),
+        cmocka_unit_test(given_two_curved_creases_then_the_sheet_has_both),
+        cmocka_unit_test(given_a_ridge_that_fades_out_then_the_line_goes_on_smoothly),
         cmocka_unit_test(given_turned_and_scaled_points_then_the_ridge_comes_along),
         cmocka_unit_test(given_any_number_of_threads_then_the_sheet_is_the_same),
         cmocka_unit_test(given_a_folded_band_when_unrolled_then_lengths_are_those_along_it),
