@@ -45,8 +45,9 @@ crease_status fit_run(crease_context *context, const settings *s, report *r)
         cJSON_AddStringToObject(r->root, "method", fit_method_names[method]);
         settings chosen = *s;
         chosen.method = method;
-        status = method == METHOD_PART ? fit_part(context, &chosen, r, cloud)
-                                       : fit_sheet(context, &chosen, r, cloud);
+        status = method == METHOD_PART || method == METHOD_SHELL
+            ? fit_part(context, &chosen, r, cloud)
+            : fit_sheet(context, &chosen, r, cloud);
     }
     crease_cloud_free(cloud);
     return status;

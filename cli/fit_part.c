@@ -114,6 +114,7 @@ static crease_status build(
 {
     crease_part_options options = crease_part_options_default();
     options.bspline_faces = s->faces == FACES_BSPLINE;
+    options.open = s->method == METHOD_SHELL;
     crease_status status = crease_regions_find(context, cloud, &s->regions, &all->regions);
     if (status != CREASE_OK)
         return status;
@@ -184,7 +185,7 @@ static void describe_kinds(report *r, const result *all)
         text, crease_part_edge_count(all->part), all->sharp_count);
 }
 
-static void describe(report *r, result *all)
+static void describe(report *r, const settings *s, result *all)
 {
     static const char *const states[] = {"solid", "shell", "faces"};
     static const char *const words[] = {
@@ -203,6 +204,8 @@ static void describe(report *r, result *all)
     describe_lists(r, all);
     if (state == CREASE_PART_SOLID)
         report_line(r, "%s, volume %.6g%s%s", words[state], volume, *why ? "; but " : "", why);
+    else if (s->method == METHOD_SHELL)
+        report_line(r, "%s", why);
     else
         report_line(r, "%s: %s", words[state], why);
     describe_kinds(r, all);
@@ -293,7 +296,7 @@ crease_status fit_part(
     result all = {0};
     crease_status status = build(context, s, r, cloud, &all);
     if (status == CREASE_OK) {
-        describe(r, &all);
+        describe(r, s, &all);
         status = write_outputs(context, s, r, &all);
     }
     result_free(&all);

@@ -34,7 +34,9 @@ const command commands[] = {
     {"fit", FOR_FIT, "fit CLOUD -o FILE [OPTIONS]",
         "turn a cloud into a CAD model, edges kept sharp",
         "Turns the cloud of a whole part into a solid: a face on the surface of every smooth "
-        "region, edges where they meet, closed where the points allow. Fits one bicubic B-spline "
+        "region, edges where they meet, closed where the points allow; open ones end at the border "
+        "of their points (--method shell). "
+        "Fits one bicubic B-spline "
         "sheet, sharp along the edges that the data show, to a cloud in which no surface lies over "
         "another. Nothing needs to be set.\n\n"
         "CLOUD is a PLY, PCD, XYZ, TXT, CSV, ASC, PTS, LAS, OBJ, STL or OFF file; - is standard "

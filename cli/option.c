@@ -10,7 +10,7 @@
 
 #define AT(member) offsetof(settings, member)
 
-const char *const fit_method_names[] = {"automatic", "part", "sheet", "averaging", NULL};
+const char *const fit_method_names[] = {"automatic", "part", "shell", "sheet", "averaging", NULL};
 static const char *const face_names[] = {"analytic", "bspline", NULL};
 static const char *const detector_names[] = {
     "bootstrap", "jackknife", "variation", "gauss-map", NULL};
@@ -33,11 +33,13 @@ const option option_table[] = {
         0, 0, NULL, "write the report as JSON", "not written"},
     {"method", 'm', OPTION_CHOICE, "NAME", FOR_FIT, AT(method), 0, 0, fit_method_names,
         "`part`: a face for every smooth region, closed to a solid where the points allow; "
+        "`shell`: the same for points that end at a border, along which the faces end as well; "
         "`sheet`: one surface whose creases are knot lines; `averaging`: the paper's Algorithm 1; "
         "`automatic`: a sheet where no surface lies over another, else a part",
         NULL},
     {"faces", 0, OPTION_CHOICE, "KIND", FOR_FIT, AT(faces), 0, 0, face_names,
-        "part: planes, cylinders, cones, spheres and tori as what they are, or every face as a "
+        "part, shell: planes, cylinders, cones, spheres and tori as what they are, or every face "
+        "as a "
         "B-spline surface",
         NULL},
     {"sigma", 0, OPTION_REAL, "S", FOR_DETECT | FOR_FIT | FOR_FILTER, AT(sigma), 0, 1e150, NULL,

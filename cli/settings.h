@@ -16,6 +16,7 @@ enum { MOST_OUTPUTS = 16, MOST_INPUTS = 2 };
 typedef enum fit_method {
     METHOD_AUTOMATIC,
     METHOD_PART,
+    METHOD_SHELL,
     METHOD_SHEET,
     METHOD_AVERAGING
 } fit_method;

@@ -96,6 +96,9 @@ typedef enum crease_part_state {
 typedef struct crease_part_options {
     bool bspline_faces; /**< every face as a bicubic (rational where it must be) B-spline surface;
                              default false: planes, cylinders ... as such */
+    bool open;          /**< the points are of a surface that ends at a border: faces end where the
+                             points do, and the shell is open; default false: they are of a closed
+                             body */
 } crease_part_options;
 
 /** A face of a part. Lengths in the unit of the cloud. */

@@ -221,7 +221,7 @@ class CadFace(Structure):
 
 
 class PartOptions(Structure):
-    _fields_ = [("bspline_faces", c_bool)]
+    _fields_ = [("bspline_faces", c_bool), ("open", c_bool)]
 
 
 class PartFace(Structure):

@@ -25,7 +25,8 @@ _TURN = {"net", "orientation", "rotation"}
 _SHEET = _TURN | {"order", "most_creases", "smoothing", "tolerance"}
 _AVERAGING = _TURN | {"neighbours", "resamples", "averaging_neighbours", "passes",
                       "marking_neighbours", "mark_threshold", "row_threshold", "multiplicity"}
-_TAKES = {"automatic": _PART | _SHEET, "part": _PART, "sheet": _SHEET, "averaging": _AVERAGING}
+_TAKES = {"automatic": _PART | _SHEET, "part": _PART, "shell": _PART,
+          "sheet": _SHEET, "averaging": _AVERAGING}
 
 
 def _check(method: str, given: Iterable[str]) -> None:
@@ -63,10 +64,10 @@ def _averaging_options(given: dict[str, Any]) -> AveragingOptions:
     return options
 
 
-def _part_options(given: dict[str, Any]) -> tuple[RegionsOptions, PartOptions]:
+def _part_options(method: str, given: dict[str, Any]) -> tuple[RegionsOptions, PartOptions]:
     bspline = choose("faces", given.get("faces", "analytic"), {"analytic": False, "bspline": True})
     splitting = fill(LIBRARY.crease_regions_options_default(), sigma=given.get("sigma"))
-    return splitting, PartOptions(bspline_faces=bspline)
+    return splitting, PartOptions(bspline_faces=bspline, open=method == "shell")
 
 
 def _chosen(work: Work, cloud: Cloud, given: dict[str, Any]) -> str:
@@ -103,6 +104,12 @@ def fit(points: Points, *, method: Literal["part"], sigma: float | None = ...,
 
 
 @overload
+def fit(points: Points, *, method: Literal["shell"], sigma: float | None = ...,
+        faces: Literal["analytic", "bspline"] | None = ..., seed: int = ..., threads: int = ...,
+        progress: ProgressCallback | None = ...) -> Part: ...
+
+
+@overload
 def fit(points: Points, *, method: Literal["automatic"] = ..., sigma: float | None = ...,
         faces: Literal["analytic", "bspline"] | None = ..., net: ArrayLike | None = ...,
         orientation: Literal["automatic", "none"] | None = ..., rotation: ArrayLike | None = ...,
@@ -117,12 +124,12 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
     options are those of `crease fit`.
 
     points: an array of n x 3, a crease.Cloud, or the path of a file.
-    method: part: a face for every smooth region, closed to a solid where the points allow; sheet:
-    one surface whose creases are knot lines; averaging: the paper's Algorithm 1; automatic: a sheet
+    method: part: a face for every smooth region, closed to a solid where the points allow; shell:
+    the same of points that end at a border, where its faces end as well; sheet: one surface whose creases are knot lines; averaging: the paper's Algorithm 1; automatic: a sheet
     where no surface lies over another, or where an option is given that only sheets have, else a
     part.
 
-    Of part: sigma: noise of the points along the normal, when it is known; faces: analytic (planes,
+    Of part and shell: sigma: noise of the points along the normal, when it is known; faces: analytic (planes,
     cylinders ... as what they are) or bspline.
     Of sheet and averaging: net: control points across and along the edge; orientation: automatic or
     none; rotation: 3 x 3, turns the cloud instead.
@@ -141,8 +148,8 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
     with Work(threads=threads, seed=seed, progress=progress) as work:
         if method == "automatic":
             method = _chosen(work, cloud, given)
-        if method == "part":
-            return build_part(work, cloud, *_part_options(given))
+        if method in ("part", "shell"):
+            return build_part(work, cloud, method, *_part_options(method, given))
         if method == "averaging":
             handle = work.make("sheet", "crease_averaging_fit", cloud._handle,
                                byref(_averaging_options(given)))

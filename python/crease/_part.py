@@ -54,15 +54,14 @@ class Edge:
 
 
 class Part(Seen):
-    """What crease.fit() brings with the method part. Arrays have one value for each point, in their
+    """What crease.fit() brings with the methods part and shell. Arrays have one value for each point, in their
     order; they show the library's memory, cannot be written to, and live on when this object is
     gone."""
 
     _own_targets = Target.CAD | Target.MESH
-    method = "part"
 
-    def __init__(self, cloud: Cloud, regions: Handle, handle: Handle) -> None:
-        self._cloud, self._handle = cloud, handle
+    def __init__(self, cloud: Cloud, regions: Handle, handle: Handle, method: str) -> None:
+        self._cloud, self._handle, self.method = cloud, handle, method
         self._noise = float(LIBRARY.crease_regions_sigma(regions))
         self.regions: list[Region] = regions_of(regions)
 
@@ -182,12 +181,13 @@ def _edge_facts(edge: Edge) -> Facts:
     return {"faces": edge.faces, "length": edge.length, "angle": edge.angle}
 
 
-def build_part(work: Work, cloud: Cloud, splitting: RegionsOptions, options: PartOptions) -> Part:
+def build_part(work: Work, cloud: Cloud, method: str, splitting: RegionsOptions,
+               options: PartOptions) -> Part:
     """The part that the points lie on."""
-    require_cad("method part")
+    require_cad(f"method {method}")
     regions = work.make("regions", "crease_regions_find", cloud._handle, byref(splitting))
     network = work.make("network", "crease_network_find", regions, None)
     with _BUILDING:
         handle = work.make("part", "crease_part_build", cloud._handle, regions, network,
                            byref(options))
-    return Part(cloud, regions, handle)
+    return Part(cloud, regions, handle, method)

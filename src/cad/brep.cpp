@@ -120,7 +120,9 @@ void Assembly::make_edge(const crease_edge &from)
     EdgePoints points = {{}, from.closed, from.smooth, topology.spacing * scaling.factor};
     for (size_t i = 0; i < from.count; i++)
         points.places.push_back(scaling(from.points + 3 * i));
-    EdgeShape edge = {space_curve(points, sheets[from.regions[0]], sheets[from.regions[1]]),
+    EdgeShape edge = {crease_edge_is_rim(&from)
+            ? space_curve(points)
+            : space_curve(points, sheets[from.regions[0]], sheets[from.regions[1]]),
         TopoDS_Edge(), std::clamp(2 * from.count, LEAST_SAMPLES, MOST_SAMPLES), TOLERANCE};
     builder.MakeEdge(edge.shape, edge.space.curve, TOLERANCE);
     builder.Range(edge.shape, edge.space.first, edge.space.last);

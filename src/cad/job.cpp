@@ -19,14 +19,14 @@ static gp_Pnt place_of(const double place[3])
 }
 
 Job::Job(crease_context *context, const crease_cloud *cloud, const crease_regions *given,
-    const crease_network *creases)
-    : regions(given), network(creases)
+    const crease_network *creases, bool is_bordered)
+    : bordered(is_bordered), regions(given), network(creases)
 {
     crease_carriers *raw = nullptr;
     require(crease_carriers_find(context, regions, &raw));
     found.reset(raw);
     crease_topology *raw_topology = nullptr;
-    require(crease_topology_find(context, regions, &raw_topology));
+    require(crease_topology_find(context, regions, bordered, &raw_topology));
     shown.reset(raw_topology);
     set_frame(cloud);
     take_carriers();

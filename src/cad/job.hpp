@@ -41,7 +41,7 @@ class Job
   public:
     /* Throws Failure. */
     Job(crease_context *context, const crease_cloud *cloud, const crease_regions *regions,
-        const crease_network *network);
+        const crease_network *network, bool bordered);
 
     /* Signed distance of a place from a carrier's surface. */
     double distance(const Carrier &carrier, const gp_Pnt &place) const;
@@ -54,6 +54,7 @@ class Job
 
     std::vector<Carrier> carriers;
     double spacing, sigma, diagonal;
+    bool bordered;   /* see crease_topology_find() */
     gp_Trsf outward; /* from this frame to that of the cloud */
     const crease_regions *regions;
     const crease_network *network;

@@ -44,16 +44,17 @@ struct Step {
     Way way;
     double diagonals, spacings;
     bool for_solid;
+    bool for_open; /* it is tried when the points end at a border */
 };
 
 static constexpr Step steps[] = {
-    {follow_topology, 0.0, 0.0, true},
-    {arrange_solid, 0.03, 1.8, true},
-    {arrange_solid, 0.06, 3.6, true},
-    {arrange_solid, 0.12, 7.2, true},
-    {arrange_solid, 0.3, 18.0, true},
-    {arrange_shells, 0.03, 3.0, false},
-    {lay_out_faces, 0.0, 0.0, false},
+    {follow_topology, 0.0, 0.0, true, true},
+    {arrange_solid, 0.03, 1.8, true, false},
+    {arrange_solid, 0.06, 3.6, true, false},
+    {arrange_solid, 0.12, 7.2, true, false},
+    {arrange_solid, 0.3, 18.0, true, false},
+    {arrange_shells, 0.03, 3.0, false, true},
+    {lay_out_faces, 0.0, 0.0, false, true},
 };
 
 /* The search for the best outcome. */
@@ -129,6 +130,8 @@ static void attempt(Search &search, const Step &step)
 
 static bool is_enough(const Search &search, const Step &next)
 {
+    if (search.best && search.job.bordered)
+        return search.best->state == CREASE_PART_SHELL && search.best->loss < GOOD_LOSS;
     if (!search.best || !is_true_solid(*search.best))
         return false;
     return !next.for_solid || (search.best->loss < GOOD_LOSS && search.best->lost == 0);
@@ -139,7 +142,7 @@ static void search_best(Search &search)
     for (const Step &step : steps) {
         if (is_enough(search, step))
             break;
-        if (seconds_for(search, step) < LEAST_SECONDS)
+        if (seconds_for(search, step) < LEAST_SECONDS || (search.job.bordered && !step.for_open))
             continue;
         if (!step.for_solid && search.best && search.best->state == CREASE_PART_SHELL &&
             search.best->loss < GOOD_LOSS)
@@ -176,6 +179,8 @@ static std::string message_of(const Search &search)
     const std::string what = best.state == CREASE_PART_SHELL
         ? "an open shell of " + faces + " with " + free_edges_of(best.outcome)
         : faces + " side by side";
+    if (search.job.bordered)
+        return best.outcome.why.empty() ? what : what + ": " + best.outcome.why;
     return what + ", no solid: " + search.why_no_solid;
 }
 
@@ -242,7 +247,7 @@ crease_status crease_part_build(crease_context *context, const crease_cloud *clo
     *out = nullptr;
     return guard(context, "part", [&] {
         check(cloud, regions);
-        const Job job(context, cloud, regions, network);
+        const Job job(context, cloud, regions, network, options && options->open);
         Search search = {
             context, cloud, job, options && options->bspline_faces, seconds_apart(), {}, ""};
         search_best(search);

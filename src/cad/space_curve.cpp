@@ -189,8 +189,12 @@ static SpaceCurve cubic(const std::vector<gp_XYZ> &places, bool closed)
 
 SpaceCurve space_curve(const EdgePoints &edge, const Sheet &a, const Sheet &b)
 {
-    if (const auto found = conic(edge, a, b))
-        return *found;
+    const auto found = conic(edge, a, b);
+    return found ? *found : space_curve(edge);
+}
+
+SpaceCurve space_curve(const EdgePoints &edge)
+{
     const std::vector<gp_XYZ> places = thinned(edge);
     if (!edge.closed && is_straight(places, STRAIGHT * edge.spacing))
         if (const auto line = line_between(places.front(), places.back()))

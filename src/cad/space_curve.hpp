@@ -32,6 +32,8 @@ struct EdgePoints {
 
 /* A line, circle or ellipse where two surfaces meet in one, else a cubic through the points. */
 SpaceCurve space_curve(const EdgePoints &edge, const Sheet &a, const Sheet &b);
+/* A line or a cubic through the points. */
+SpaceCurve space_curve(const EdgePoints &edge);
 
 /* A curve in u and v. */
 struct FlatCurve {

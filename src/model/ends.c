@@ -171,6 +171,7 @@ static void find_spreads(crease_graph *graph)
                 const crease_edge *const x = &t->edges[a], *const y = &t->edges[b];
                 const int32_t v = x->vertices[w];
                 if ((y->vertices[0] == v || y->vertices[1] == v) && !x->smooth && !y->smooth &&
+                    !crease_edge_is_rim(x) && !crease_edge_is_rim(y) &&
                     crease_graph_ends(graph, v, -1) > SIMPLE_CORNER)
                     spread_at(graph, x, y, v);
             }

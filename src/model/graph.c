@@ -227,6 +227,13 @@ bool crease_graph_onto(
 {
     if (edge->loose)
         return true;
+    if (crease_edge_is_rim(edge)) {
+        double gradient[3];
+        const double away = crease_graph_distance(graph, edge->regions[0], place, gradient);
+        for (int c = 0; c < 3; c++)
+            place[c] -= away * gradient[c];
+        return true;
+    }
     if (!edge->smooth)
         return crease_graph_project(
             graph, edge->regions, PROJECT_REACH * graph->survey->spacing, place);

@@ -13,6 +13,7 @@
 #include "model/extend.h"
 #include "model/face.h"
 #include "model/loop.h"
+#include "model/rim.h"
 #include "model/seam.h"
 #include "model/tangency.h"
 #include "model/turn.h"
@@ -44,7 +45,14 @@ static crease_status trace(
     return status;
 }
 
-static crease_status make_edges(crease_graph *graph, crease_chains *chains)
+/* What closes the faces where creases and seams do not. */
+static crease_status close_gaps(crease_graph *graph, bool bordered)
+{
+    const crease_ground ground = crease_ground_of_models(graph);
+    return bordered ? crease_rims_add(graph, &ground) : crease_bridges_build(graph);
+}
+
+static crease_status make_edges(crease_graph *graph, crease_chains *chains, bool bordered)
 {
     crease_junctions corners = {.count = 0};
     crease_links links = {.count = 0};
@@ -52,7 +60,7 @@ static crease_status make_edges(crease_graph *graph, crease_chains *chains)
     if (status == CREASE_OK)
         status = crease_graph_begin(graph, chains, &corners);
     crease_junctions_clear(&corners);
-    if (status == CREASE_OK)
+    if (status == CREASE_OK && !bordered)
         status = crease_ends_extend(graph);
     if (status == CREASE_OK)
         status = crease_ends_join(graph);
@@ -67,7 +75,7 @@ static crease_status make_edges(crease_graph *graph, crease_chains *chains)
         status = crease_seams_find(graph, &links);
     }
     if (status == CREASE_OK)
-        status = crease_bridges_build(graph);
+        status = close_gaps(graph, bordered);
     crease_links_clear(&links);
     return status;
 }
@@ -119,7 +127,7 @@ static crease_status impose_tangency(
 }
 
 static crease_status find(crease_context *context, const crease_survey *survey,
-    crease_model *models, crease_topology *topology)
+    crease_model *models, bool bordered, crease_topology *topology)
 {
     crease_graph graph = {context, survey, topology};
     crease_chains chains = {.count = 0};
@@ -132,7 +140,7 @@ static crease_status find(crease_context *context, const crease_survey *survey,
         status = trace(context, survey, &chains);
     }
     if (status == CREASE_OK)
-        status = make_edges(&graph, &chains);
+        status = make_edges(&graph, &chains, bordered);
     crease_chains_clear(&chains);
     if (status == CREASE_OK)
         status = make_faces(&graph);
@@ -154,7 +162,7 @@ static crease_topology *empty(crease_context *context, const crease_regions *reg
 }
 
 crease_status crease_topology_find(
-    crease_context *context, const crease_regions *regions, crease_topology **out)
+    crease_context *context, const crease_regions *regions, bool bordered, crease_topology **out)
 {
     crease_tree *tree = NULL;
     crease_regions view = *regions; /* with models that may change */
@@ -171,7 +179,7 @@ crease_status crease_topology_find(
             .spacing = regions->noise->spacing,
             .sigma = regions->sigma,
             .least_bend = LEAST_TURN};
-        status = find(context, &survey, view.models, topology);
+        status = find(context, &survey, view.models, bordered, topology);
     }
     crease_tree_free(tree);
     free_models(view.models, regions->region_count);

@@ -17,14 +17,17 @@ extern "C" {
 
 enum { CREASE_NO_VERTEX = -1 };
 
+#define CREASE_NO_OTHER UINT32_MAX /* the second region of a rim */
+
 typedef struct crease_vertex {
     double place[3];
     double spread; /* how far away any three of its surfaces meet */
 } crease_vertex;
 
-/* An edge runs along the common curve of the surfaces of two regions. */
+/* An edge runs along the common curve of the surfaces of two regions; or, a rim, along the border
+ * of the data on one. */
 typedef struct crease_edge {
-    uint32_t regions[2]; /* ascending */
+    uint32_t regions[2]; /* ascending; the second CREASE_NO_OTHER: a rim */
     int32_t vertices[2]; /* where it begins and ends; the same twice: closed */
     bool closed;         /* its first and last point are the same */
     bool smooth;         /* its faces join without an angle */
@@ -80,9 +83,15 @@ typedef struct crease_topology {
     crease_face *faces;
 } crease_topology;
 
-/* Errors: NO_MEMORY, CANCELLED. */
+/* bordered: the points end at a border, so that faces may have rims; otherwise they are of a closed
+ * body, of which a scan may have missed something. Errors: NO_MEMORY, CANCELLED. */
 CREASE_API crease_status crease_topology_find(
-    crease_context *context, const crease_regions *regions, crease_topology **out);
+    crease_context *context, const crease_regions *regions, bool bordered, crease_topology **out);
+/* Whether an edge has one face only. */
+static inline bool crease_edge_is_rim(const crease_edge *edge)
+{
+    return edge->regions[1] == CREASE_NO_OTHER;
+}
 CREASE_API void crease_topology_free(crease_topology *topology);
 
 #ifdef __cplusplus

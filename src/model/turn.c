@@ -282,6 +282,8 @@ static bool may_wait(const crease_graph *graph, uint32_t region, const crease_lo
         for (size_t h = 0; h < loops->items[i].count; h++) {
             const crease_edge *const edge = &t->edges[loops->items[i].halves[h].edge];
             const uint32_t other = edge->regions[edge->regions[0] == region];
+            if (crease_edge_is_rim(edge))
+                continue;
             if (edge->vertices[0] != CREASE_NO_VERTEX)
                 return false;
             beside = beside || crease_chart_turns(&t->charts[other], 0);

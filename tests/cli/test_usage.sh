@@ -32,7 +32,7 @@ expect 2 "creases or score" detect cloud.ply --features none
 expect 2 ".brep .ply .obj .csv" detect cloud.ply --creases out.xyz
 expect 2 "6x6" fit cloud.ply --net 6
 expect 2 "6x6" fit cloud.ply --net 3x6
-expect 2 "automatic, part, sheet or averaging" fit cloud.ply --method magic
+expect 2 "automatic, part, shell, sheet or averaging" fit cloud.ply --method magic
 expect 2 "nine numbers" fit cloud.ply --rotation 1,0,0,0,1,0,0,0
 expect 2 "form a rotation" fit cloud.ply --rotation 1,0,0,0,1,0,0,0,2
 expect 2 "0 to 18446744073709551615" fit cloud.ply --seed -1

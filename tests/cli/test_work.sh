@@ -181,6 +181,25 @@ expect 0 "11 faces, 0 of them without a point" compare bracket.step bracket.ply
 expect 0 "8000 points" example bracket --count 8000 -o sparse.ply
 expect 0 "a closed, valid solid, volume 67" fit sparse.ply -o sparse.step
 
+# --- fit, shell: what ends at a border stays open
+awk 'BEGIN { srand(5); for (face = 0; face < 3; face++) for (i = 0; i < 900; i++) {
+    a = (i % 30 + rand()) / 30; b = (int(i / 30) + rand()) / 30
+    print face == 0 ? 0 : a, face == 1 ? 0 : face == 0 ? a : b, face == 2 ? 0 : b } }' >corner.xyz
+expect 0 "an open shell of 3 faces with 6 free edges" fit corner.xyz --method shell -o corner.step \
+    --creases corner_creases.csv --points corner_on.ply --report corner.json -o corner.obj -o corner.html
+expect 0 "0 solids, 1 shells (0 closed), 3 faces" info corner.step
+expect 0 "field face: 0 to 2" info corner_on.ply
+check "the report tells three sharp edges and six free ones" python3 -c '
+import json
+r = json.load(open("corner.json"))
+assert r["method"] == "shell" and r["part"]["state"] == "shell"
+free = [e for e in r["edges"] if len(e["faces"]) == 1]
+assert len(free) == 6 and len(r["edges"]) == 9
+assert all(abs(e["angle"] - 90) < 1e-4 for e in r["edges"] if e not in free)
+assert abs(sum(f["area"] for f in r["faces"]) - 3) < 0.06'
+expect 0 "3 faces" fit corner.xyz --method shell --faces bspline -o corner.brep
+expect 0 "3 B-spline, 0 plane" info corner.brep
+
 # --- fit, the paper's algorithm: rows 3 and 4 are repeated, a flat-topped ridge
 expect 0 "control points" fit sample.ply --method averaging -o a.step --report a.json
 check "the paper repeats two rows of its net" python3 -c '

@@ -18,7 +18,7 @@ static world world_of_points(const given_body *body, given_points points, double
 {
     world w = {given_context(), NULL, NULL};
     w.regions = given_regions(w.context, body, points, s, sigma);
-    if (crease_topology_find(w.context, w.regions, &w.topology) != CREASE_OK)
+    if (crease_topology_find(w.context, w.regions, false, &w.topology) != CREASE_OK)
         fail_msg("%s", crease_context_message(w.context));
     return w;
 }
@@ -477,7 +477,7 @@ static void given_any_number_of_threads_when_found_then_the_same_bytes(void **st
     for (int threads = 1; threads <= 3; threads += 2) {
         crease_context *context = given_context_with_threads(threads);
         crease_topology *topology = NULL;
-        assert_int_equal(crease_topology_find(context, w.regions, &topology), CREASE_OK);
+        assert_int_equal(crease_topology_find(context, w.regions, false, &topology), CREASE_OK);
         check_equal(w.topology, topology);
         crease_topology_free(topology);
         crease_context_free(context);
@@ -495,7 +495,7 @@ static void given_failing_memory_when_found_then_error_and_no_leak(void **state)
     for (;; n++) {
         crease_topology *topology = NULL;
         crease_context_fail_allocation(alone, n);
-        const crease_status status = crease_topology_find(alone, w.regions, &topology);
+        const crease_status status = crease_topology_find(alone, w.regions, false, &topology);
         crease_context_fail_allocation(alone, -1);
         if (status == CREASE_OK) {
             check_equal(w.topology, topology);
