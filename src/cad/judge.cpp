@@ -98,10 +98,13 @@ bool is_true_solid(const Judged &judged)
     return judged.state == CREASE_PART_SOLID && judged.loss < MOST_LOSS;
 }
 
+/* A closed solid that the points contradict is worse than faces side by side: it looks finished. */
 static int rank(const Judged &judged)
 {
     if (is_true_solid(judged))
         return judged.lost == 0 ? 3 : 2;
+    if (judged.state == CREASE_PART_SOLID)
+        return -1;
     return judged.state == CREASE_PART_SHELL && judged.loss < MOST_SHELL_LOSS;
 }
 
