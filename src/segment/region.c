@@ -125,6 +125,18 @@ static crease_status join_waves(crease_segmentation *seg)
     return status;
 }
 
+/* Free forms that were found in pieces. Where neighbours err alike the noise would explain too
+ * much.
+ */
+static crease_status unite(crease_segmentation *seg)
+{
+    size_t merged = 0;
+    if (seg->alike > 1.0)
+        return CREASE_OK;
+    const crease_status status = crease_merge_vague(seg, LARGE_SAMPLE, &merged);
+    return status == CREASE_OK && merged > 0 ? polish(seg) : status;
+}
+
 static crease_status run_stages(crease_segmentation *seg)
 {
     set_sigma(seg);
@@ -142,6 +154,8 @@ static crease_status run_stages(crease_segmentation *seg)
         status = polish(seg);
     if (status == CREASE_OK)
         status = join_waves(seg);
+    if (status == CREASE_OK)
+        status = unite(seg);
     return status == CREASE_OK ? crease_fillets_find(seg) : status;
 }
 

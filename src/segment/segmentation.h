@@ -96,6 +96,9 @@ crease_status crease_merge(crease_segmentation *seg, size_t sample, size_t large
 /* Joins neighbouring regions on each of which one simple model leaves a mean square residual within
  * the tolerance, in square sigmas. */
 crease_status crease_merge_within(crease_segmentation *seg, size_t sample, double tolerance);
+/* Joins regions of no definite kind, such as two pieces of a free form, that go on smoothly from
+ * one to the other and that one surface explains to the noise. */
+crease_status crease_merge_vague(crease_segmentation *seg, size_t sample, size_t *merged);
 /* Gives every point the label that its distances and its neighbours favour. *changed: labels. */
 crease_status crease_relabel(crease_segmentation *seg, int rounds, size_t *changed);
 /* Fits the models to their regions' interiors again. */

@@ -166,7 +166,7 @@ static void a_free_form_is_explained_by_few_regions(void **state)
         crease_regions *regions = given_regions(context, &faces);
         size_t points = 0;
         bool free_form = false;
-        assert_true(crease_regions_count(regions) <= 3);
+        assert_true(crease_regions_count(regions) <= 2);
         for (size_t r = 0; r < crease_regions_count(regions); r++) {
             const crease_region piece = crease_regions_at(regions, r);
             free_form |= piece.type == CREASE_REGION_FREEFORM && piece.parameter_count == 0;
