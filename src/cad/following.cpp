@@ -8,14 +8,23 @@
 #include "cad/ways.hpp"
 
 #include <BRepCheck_Analyzer.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Vertex.hxx>
 
 #include <algorithm>
 
 namespace crease_cad
 {
+
+/* Of vertices, in spacings. */
+static constexpr double LEAST_REACH = 0.01, MOST_REACH = 0.5;
+static constexpr double WIDER = 1.5; /* from try to try */
 
 static int face_count(const TopoDS_Shape &shape)
 {
@@ -24,10 +33,36 @@ static int face_count(const TopoDS_Shape &shape)
     return faces.Extent();
 }
 
-/* What OpenCASCADE can mend without taking or adding faces. */
-static TopoDS_Shape mended(const TopoDS_Shape &shape)
+/* Lets the vertices of the faces that are not valid reach farther: where surfaces join at a small
+ * angle, edges cross a little before they end. */
+static bool widen_vertices(const TopoDS_Shape &shape, double least, double most)
 {
-    if (BRepCheck_Analyzer(shape).IsValid())
+    BRep_Builder builder;
+    bool wider = false;
+    for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next()) {
+        if (BRepCheck_Analyzer(face.Current()).IsValid())
+            continue;
+        TopTools_IndexedMapOfShape vertices;
+        TopExp::MapShapes(face.Current(), TopAbs_VERTEX, vertices);
+        for (int i = 1; i <= vertices.Extent(); i++) {
+            const TopoDS_Vertex vertex = TopoDS::Vertex(vertices(i));
+            const double reach = std::max(least, WIDER * BRep_Tool::Tolerance(vertex));
+            if (reach <= most) {
+                builder.UpdateVertex(vertex, reach);
+                wider = true;
+            }
+        }
+    }
+    return wider;
+}
+
+/* What can be mended without taking or adding faces. */
+static TopoDS_Shape mended(const TopoDS_Shape &shape, double spacing)
+{
+    bool valid = BRepCheck_Analyzer(shape).IsValid();
+    while (!valid && widen_vertices(shape, LEAST_REACH * spacing, MOST_REACH * spacing))
+        valid = BRepCheck_Analyzer(shape).IsValid();
+    if (valid)
         return shape;
     ShapeFix_Shape fix(shape);
     fix.Perform();
@@ -51,7 +86,7 @@ Attempt follow_topology(const Job &job, double)
     const Brep brep = brep_of(job.topology(), job.inwards());
     if (brep.shape.IsNull())
         return {TopoDS_Shape(), why_open(job.topology())};
-    return {mended(brep.shape), why_open(job.topology())};
+    return {mended(brep.shape, job.spacing), why_open(job.topology())};
 }
 
 } // namespace crease_cad

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/vector.h"
 #include "model/contact.h"
+#include "model/trail.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -196,11 +197,54 @@ static bool is_there(const crease_graph *graph, const crease_edge *edge)
     return 2 * beside > edge->count - 2;
 }
 
-static crease_status bridge(crease_graph *graph, const struct gap *gap)
+/* Lets an edge of the two regions that ends by itself at one of the vertices, having passed by the
+ * other one, end there. */
+static crease_status retract(const crease_graph *graph, const struct gap *gap, int which)
+{
+    const crease_topology *const t = graph->topology;
+    const int32_t leaf = gap->vertices[which], to = gap->vertices[1 - which];
+    const double *const place = t->vertices[to].place;
+    for (size_t e = 0; e < t->edge_count; e++) {
+        crease_edge *const edge = &t->edges[e];
+        const int end = edge->vertices[1] == leaf;
+        if (memcmp(edge->regions, gap->regions, sizeof edge->regions) != 0 ||
+            edge->vertices[end] != leaf || edge->vertices[1 - end] == to ||
+            crease_edge_distance(edge, place) > SAME_EDGE * graph->survey->spacing)
+            continue;
+        size_t nearest = 0;
+        if (!end)
+            crease_edge_reverse(edge);
+        for (size_t i = 0; i < edge->count; i++)
+            if (crease_vector_distance(edge->points + 3 * i, place) <
+                crease_vector_distance(edge->points + 3 * nearest, place))
+                nearest = i;
+        crease_edge_erase(edge, nearest > 0 ? nearest : 1, edge->count);
+        edge->vertices[1] = to;
+        return crease_edge_append(graph->context, edge, place);
+    }
+    return CREASE_OK;
+}
+
+static crease_status retract_leaves(const crease_graph *graph, const struct gap *gap)
+{
+    for (int w = 0; w < 2; w++)
+        if (crease_graph_ends(graph, gap->vertices[w], -1) == 1)
+            return retract(graph, gap, w);
+    return CREASE_OK;
+}
+
+static bool is_open(const crease_graph *graph, const struct gap *gap)
 {
     for (int i = 0; i < 4; i++)
         if (!crease_graph_odd(graph, gap->vertices[i / 2], gap->regions[i % 2]))
-            return CREASE_OK;
+            return false;
+    return true;
+}
+
+static crease_status bridge(crease_graph *graph, const struct gap *gap)
+{
+    if (!is_open(graph, gap))
+        return CREASE_OK;
     const bool crossed = is_crossed(graph, gap);
     if (!crossed && !is_one(graph, gap))
         return CREASE_OK;
@@ -208,13 +252,35 @@ static crease_status bridge(crease_graph *graph, const struct gap *gap)
     edge.smooth = edge.loose = !crossed;
     memcpy(edge.vertices, gap->vertices, sizeof edge.vertices);
     crease_status status = lay(graph, gap, &edge);
-    if (status == CREASE_OK && !is_there(graph, &edge))
-        status = crease_graph_take(graph, &edge);
+    if (status == CREASE_OK)
+        status =
+            is_there(graph, &edge) ? retract_leaves(graph, gap) : crease_graph_take(graph, &edge);
     crease_edge_clear(&edge);
     return status;
 }
 
-crease_status crease_bridges_build(crease_graph *graph)
+/* Where no surface tells the way, along the links between the two regions. */
+static crease_status follow_links(
+    crease_graph *graph, const crease_links *links, const struct gap *gap)
+{
+    crease_loose loose = {.count = 0};
+    crease_edge edge = {.count = 0};
+    bool found = false;
+    size_t run[2];
+    if (!is_open(graph, gap) || !crease_links_between(links, gap->regions, run))
+        return CREASE_OK;
+    crease_status status = crease_loose_find(graph, links, run[0], run[1], &loose);
+    if (status == CREASE_OK)
+        status = crease_trail_lay(graph, &loose, gap->vertices, &edge, &found);
+    if (status == CREASE_OK && found)
+        status =
+            is_there(graph, &edge) ? retract_leaves(graph, gap) : crease_graph_take(graph, &edge);
+    crease_edge_clear(&edge);
+    crease_loose_clear(&loose);
+    return status;
+}
+
+crease_status crease_bridges_build(crease_graph *graph, const crease_links *links)
 {
     struct gaps gaps = {.count = 0};
     crease_status status = find_gaps(graph, &gaps);
@@ -222,6 +288,8 @@ crease_status crease_bridges_build(crease_graph *graph)
         qsort(gaps.items, gaps.count, sizeof *gaps.items, shorter);
     for (size_t i = 0; i < gaps.count && status == CREASE_OK; i++)
         status = bridge(graph, &gaps.items[i]);
+    for (size_t i = 0; i < gaps.count && status == CREASE_OK; i++)
+        status = follow_links(graph, links, &gaps.items[i]);
     free(gaps.items);
     return status;
 }

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LOOK_BACK = 30, LEAF_POINTS = 16, SIMPLE_CORNER = 3 };
+enum { LOOK_BACK = 30, LEAF_POINTS = 16, LEAST_ENDS = 3 };
 
 /* In spacings. */
 static const double JOIN_REACH = 4.0;
@@ -161,7 +161,8 @@ static void spread_at(crease_graph *graph, const crease_edge *a, const crease_ed
         vertex->spread = fmax(vertex->spread, crease_vector_distance(place, vertex->place));
 }
 
-/* Where more than three surfaces meet, any three of them meet in another place. */
+/* Any three of the surfaces that meet in a vertex may meet in another place, and even the only
+ * three, when the vertex is where the points say that the edges end. */
 static void find_spreads(crease_graph *graph)
 {
     const crease_topology *const t = graph->topology;
@@ -172,7 +173,7 @@ static void find_spreads(crease_graph *graph)
                 const int32_t v = x->vertices[w];
                 if ((y->vertices[0] == v || y->vertices[1] == v) && !x->smooth && !y->smooth &&
                     !crease_edge_is_rim(x) && !crease_edge_is_rim(y) &&
-                    crease_graph_ends(graph, v, -1) > SIMPLE_CORNER)
+                    crease_graph_ends(graph, v, -1) >= LEAST_ENDS)
                     spread_at(graph, x, y, v);
             }
 }

@@ -92,6 +92,18 @@ size_t crease_links_run(const crease_links *links, size_t begin)
     return end;
 }
 
+bool crease_links_between(const crease_links *links, const uint32_t regions[2], size_t run[2])
+{
+    run[0] = run[1] = 0;
+    while (run[0] < links->count) {
+        run[1] = crease_links_run(links, run[0]);
+        if (memcmp(links->items[run[0]].regions, regions, 2 * sizeof *regions) == 0)
+            return true;
+        run[0] = run[1];
+    }
+    return false;
+}
+
 /* --------------------------------------------------------------------------------- loose -- */
 
 /* A tree of the points of all edges between two regions; NULL when there are none. */

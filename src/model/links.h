@@ -25,6 +25,9 @@ crease_status crease_links_find(
 void crease_links_clear(crease_links *links);
 /* The end of the run of links of one pair that begins at number `begin`. */
 size_t crease_links_run(const crease_links *links, size_t begin);
+/* The links of two regions, ascending: numbers run[0] up to, not including, run[1]. False when
+ * there are none. */
+bool crease_links_between(const crease_links *links, const uint32_t regions[2], size_t run[2]);
 
 /* The loose links of two regions. */
 typedef struct crease_loose {

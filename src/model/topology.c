@@ -13,6 +13,8 @@
 #include "model/extend.h"
 #include "model/face.h"
 #include "model/loop.h"
+#include "model/missing.h"
+#include "model/relax.h"
 #include "model/rim.h"
 #include "model/seam.h"
 #include "model/tangency.h"
@@ -46,10 +48,15 @@ static crease_status trace(
 }
 
 /* What closes the faces where creases and seams do not. */
-static crease_status close_gaps(crease_graph *graph, bool bordered)
+static crease_status close_gaps(crease_graph *graph, const crease_links *links, bool bordered)
 {
     const crease_ground ground = crease_ground_of_models(graph);
-    return bordered ? crease_rims_add(graph, &ground) : crease_bridges_build(graph);
+    if (bordered)
+        return crease_rims_add(graph, &ground);
+    crease_status status = crease_bridges_build(graph, links);
+    if (status == CREASE_OK)
+        status = crease_missing_find(graph, links);
+    return status == CREASE_OK ? crease_seams_relax(graph) : status;
 }
 
 static crease_status make_edges(crease_graph *graph, crease_chains *chains, bool bordered)
@@ -75,7 +82,7 @@ static crease_status make_edges(crease_graph *graph, crease_chains *chains, bool
         status = crease_seams_find(graph, &links);
     }
     if (status == CREASE_OK)
-        status = close_gaps(graph, bordered);
+        status = close_gaps(graph, &links, bordered);
     crease_links_clear(&links);
     return status;
 }

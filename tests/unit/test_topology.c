@@ -340,6 +340,64 @@ static void given_filleted_box_when_found_then_smooth_edges_beside_the_fillet(vo
     end_world(&w);
 }
 
+/* -------------------------------------------------------------------------- faces in pieces -- */
+
+/* The border between the pieces that the top of a box is found in. */
+static double border_at(double y)
+{
+    return 0.1 * sin(5 * y);
+}
+
+/* Gives the top, the last face of a box, two or three labels, all with its plane. */
+static void split_top(given_body *box, given_points *points, int pieces)
+{
+    for (int i = 1; i < pieces; i++)
+        given_add(box, box->models[5]);
+    for (size_t i = 0; i < points->count; i++) {
+        const double *const p = points->points + 3 * i;
+        if (points->labels[i] == 5 && p[0] > border_at(p[1]))
+            points->labels[i] = pieces == 3 && p[1] > 0 ? 7 : 6;
+    }
+}
+
+static void given_face_in_two_pieces_when_found_then_the_points_say_where_it_parts(void **state)
+{
+    given_body box = given_box(1, 0.6, 0.5);
+    given_points points = given_sample(&box, S, 0, 5);
+    split_top(&box, &points, 2);
+    world w = world_of_points(&box, points, S, 0);
+    check_counts(w.topology, 10, 15, 7);
+    size_t between = 0;
+    for (size_t e = 0; e < 15; e++) {
+        const crease_edge *edge = &w.topology->edges[e];
+        if (edge->regions[0] != 5 || edge->regions[1] != 6)
+            continue;
+        between++;
+        assert_true(edge->smooth);
+        for (size_t i = 0; i < edge->count; i++)
+            assert_near(edge->points[3 * i], border_at(edge->points[3 * i + 1]), 2 * S);
+    }
+    assert_int_equal(between, 1);
+    check_points(&w, 1e-9);
+    end_world(&w);
+}
+
+static void given_face_in_three_pieces_when_found_then_they_meet_in_a_vertex(void **state)
+{
+    given_body box = given_box(1, 0.6, 0.5);
+    given_points points = given_sample(&box, S, 0, 5);
+    split_top(&box, &points, 3);
+    world w = world_of_points(&box, points, S, 0);
+    check_counts(w.topology, 12, 18, 8);
+    const double corner[3] = {0, 0, 0.5};
+    double least = INFINITY;
+    for (size_t v = 0; v < w.topology->vertex_count; v++)
+        least = fmin(least, crease_vector_distance(w.topology->vertices[v].place, corner));
+    assert_true(least < 2 * S);
+    check_points(&w, 1e-9);
+    end_world(&w);
+}
+
 /* --------------------------------------------------------------------------- lost points -- */
 
 static bool outside_shadow(const double *p, int32_t label)
@@ -487,9 +545,10 @@ static void given_any_number_of_threads_when_found_then_the_same_bytes(void **st
 
 static void given_failing_memory_when_found_then_error_and_no_leak(void **state)
 {
-    const given_body box = given_box(0.5, 0.5, 0.5);
-    const given_points points = keep(given_sample(&box, 3 * S, 0, 5), outside_shadow);
-    world w = world_of_points(&box, points, 3 * S, 0);
+    given_body box = given_box(0.5, 0.5, 0.5);
+    given_points points = keep(given_sample(&box, 2 * S, 0, 5), outside_shadow);
+    split_top(&box, &points, 3);
+    world w = world_of_points(&box, points, 2 * S, 0);
     crease_context *const alone = given_context_with_threads(1);
     long n = 0;
     for (;; n++) {
@@ -522,6 +581,8 @@ int main(void)
         cmocka_unit_test(given_bored_block_when_found_then_top_and_bottom_have_a_hole),
         cmocka_unit_test(given_dome_when_found_then_a_smooth_ring_joins_rod_and_sphere),
         cmocka_unit_test(given_filleted_box_when_found_then_smooth_edges_beside_the_fillet),
+        cmocka_unit_test(given_face_in_two_pieces_when_found_then_the_points_say_where_it_parts),
+        cmocka_unit_test(given_face_in_three_pieces_when_found_then_they_meet_in_a_vertex),
         cmocka_unit_test(given_corner_without_points_when_found_then_it_is_where_edges_meet),
         cmocka_unit_test(given_edge_without_points_when_found_then_it_is_bridged),
         cmocka_unit_test(given_face_without_points_when_found_then_neighbours_are_open),

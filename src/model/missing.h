@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* Edges that parity still asks for when creases, seams and bridges are there: between two vertices
+ * that lack an edge of the same two regions, or from three such pairs to a corner in which three
+ * regions meet smoothly, of which no surface tells where it is. */
+#ifndef CREASE_MODEL_MISSING_H
+#define CREASE_MODEL_MISSING_H
+
+#include "model/links.h"
+
+/* Adds those that the borders between the points show, see trail.h. */
+crease_status crease_missing_find(crease_graph *graph, const crease_links *links);
+
+#endif
