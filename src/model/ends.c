@@ -13,6 +13,7 @@ enum { LOOK_BACK = 30, LEAF_POINTS = 16, LEAST_ENDS = 3 };
 
 /* In spacings. */
 static const double JOIN_REACH = 4.0;
+static const double LONELY_REACH = 3.0;
 static const double AHEAD = 0.1;
 static const double SAME = 0.02;
 static const double SPREAD_REACH = 3.0;
@@ -34,6 +35,54 @@ static int32_t nearest_vertex(const crease_topology *t, const double place[3], i
     return nearest;
 }
 
+/* The region that two edges have in common, then the other ones. False when they have none, or
+ * both. */
+static bool three_regions(const crease_edge *a, const crease_edge *b, uint32_t out[3])
+{
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++) {
+            out[0] = a->regions[i];
+            out[1] = a->regions[1 - i];
+            out[2] = b->regions[1 - k];
+            if (a->regions[i] == b->regions[k] && out[1] != out[2])
+                return true;
+        }
+    return false;
+}
+
+/* The only end of an edge at a vertex: the edge, or NULL when there are more. */
+static crease_edge *only_edge(const crease_graph *graph, int32_t vertex)
+{
+    const crease_topology *const t = graph->topology;
+    if (crease_graph_ends(graph, vertex, -1) != 1)
+        return NULL;
+    size_t e = 0;
+    while (t->edges[e].vertices[0] != vertex && t->edges[e].vertices[1] != vertex)
+        e++;
+    return &t->edges[e];
+}
+
+/* Two edges of one region that end by themselves side by side, each past the other or short of it,
+ * end in one vertex: there the border between the two other regions begins. */
+static void join_lonely(const crease_graph *graph)
+{
+    const crease_topology *const t = graph->topology;
+    for (size_t v = 0; v < t->vertex_count; v++)
+        for (size_t w = v + 1; w < t->vertex_count; w++) {
+            double *const place = t->vertices[v].place, *const other = t->vertices[w].place;
+            if (crease_vector_distance(place, other) > LONELY_REACH * t->spacing)
+                continue;
+            const crease_edge *const a = only_edge(graph, (int32_t)v);
+            crease_edge *const b = only_edge(graph, (int32_t)w);
+            uint32_t regions[3];
+            if (!a || !b || a == b || !three_regions(a, b, regions))
+                continue;
+            b->vertices[b->vertices[1] == (int32_t)w] = (int32_t)v;
+            for (int c = 0; c < 3; c++)
+                place[c] = 0.5 * (place[c] + other[c]);
+        }
+}
+
 crease_status crease_ends_join(crease_graph *graph)
 {
     const crease_topology *const t = graph->topology;
@@ -48,6 +97,8 @@ crease_status crease_ends_join(crease_graph *graph)
             if (edge->vertices[w] == CREASE_NO_VERTEX)
                 status = crease_graph_vertex(graph, tip, &edge->vertices[w]);
         }
+    if (status == CREASE_OK)
+        join_lonely(graph);
     return status;
 }
 
@@ -130,21 +181,6 @@ void crease_ends_prune(crease_graph *graph)
 }
 
 /* ----------------------------------------------------------------------------- finishing -- */
-
-/* The region that two edges have in common, then the other ones. False when they have none, or
- * both. */
-static bool three_regions(const crease_edge *a, const crease_edge *b, uint32_t out[3])
-{
-    for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 2; k++) {
-            out[0] = a->regions[i];
-            out[1] = a->regions[1 - i];
-            out[2] = b->regions[1 - k];
-            if (a->regions[i] == b->regions[k] && out[1] != out[2])
-                return true;
-        }
-    return false;
-}
 
 static void spread_at(crease_graph *graph, const crease_edge *a, const crease_edge *b, int32_t v)
 {

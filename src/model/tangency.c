@@ -243,9 +243,11 @@ static crease_status refit(struct fit *fit, bool *changed)
     return status;
 }
 
+/* A fillet that is tangent to its planes by construction would not be so afterwards. */
 static bool can_change(const crease_model *model)
 {
-    return model->type != CREASE_REGION_PLANE && model->type != CREASE_REGION_FREEFORM;
+    return model->tangent_count == 0 && model->type != CREASE_REGION_PLANE &&
+        model->type != CREASE_REGION_FREEFORM;
 }
 
 /* The largest region below a size and number, or SIZE_MAX. */

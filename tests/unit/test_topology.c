@@ -307,19 +307,20 @@ static bool on_fillet(const double *p, int32_t label)
     return p[0] > 0.5 - FILLET && p[2] > 0.5 - FILLET && fabs(p[1]) < 0.5;
 }
 
-static void given_filleted_box_when_found_then_smooth_edges_beside_the_fillet(void **state)
+/* A box with one edge rounded; the fillet, its last face, is tangent to the planes 1 and 5. */
+static given_points given_filleted_box(double sigma, given_body *out)
 {
     const double axis[3] = {0, 1, 0}, middle[3] = {0.5 - FILLET, 0, 0.5 - FILLET};
     given_body box = given_box(0.5, 0.5, 0.5), round = {.size = 1};
-    given_points points = keep(given_sample(&box, S / 2, 0, 5), beside_fillet);
+    given_points points = keep(given_sample(&box, S / 2, sigma, 5), beside_fillet);
     /* side faces end at the arc */
     for (size_t i = 0; i < points.count; i++)
         assert_true(points.labels[i] >= 0);
     given_add(&round, given_model(CREASE_REGION_CYLINDER, middle, axis, FILLET, 0));
-    given_points arc = keep(given_sample(&round, S / 2, 0, 6), on_fillet);
+    given_points arc = keep(given_sample(&round, S / 2, sigma, 6), on_fillet);
     given_body corner = given_box(0.5, 0.5, 0.5);
     given_add(&corner, round.models[0]);
-    given_points ends = given_sample(&corner, S / 2, 0, 7);
+    given_points ends = given_sample(&corner, S / 2, sigma, 7);
     for (size_t i = 0; i < ends.count; i++)
         if (ends.labels[i] / 2 == 1 &&
             on_fillet((double[3]){ends.points[3 * i], 0, ends.points[3 * i + 2]}, 0))
@@ -327,6 +328,14 @@ static void given_filleted_box_when_found_then_smooth_edges_beside_the_fillet(vo
     free(ends.points);
     free(ends.labels);
     merge(&box, &points, &round, arc);
+    *out = box;
+    return points;
+}
+
+static void given_filleted_box_when_found_then_smooth_edges_beside_the_fillet(void **state)
+{
+    given_body box;
+    const given_points points = given_filleted_box(0, &box);
     world w = world_of_points(&box, points, S / 2, 0);
     check_counts(w.topology, 10, 15, 7);
     size_t smooth = 0;
@@ -340,12 +349,26 @@ static void given_filleted_box_when_found_then_smooth_edges_beside_the_fillet(vo
     end_world(&w);
 }
 
+static void given_fillet_tangent_by_construction_when_found_then_it_stays_as_it_is(void **state)
+{
+    given_body box;
+    const given_points points = given_filleted_box(0.1 * S, &box);
+    crease_model *const round = &box.models[6];
+    round->tangent_count = 2;
+    round->tangent[0] = 1;
+    round->tangent[1] = 5;
+    world w = world_of_points(&box, points, S / 2, 0.1 * S);
+    assert_true(w.topology->charts[6].radius == round->radius);
+    assert_memory_equal(w.topology->charts[6].centre, round->centre, sizeof round->centre);
+    end_world(&w);
+}
+
 /* -------------------------------------------------------------------------- faces in pieces -- */
 
 /* The border between the pieces that the top of a box is found in. */
 static double border_at(double y)
 {
-    return 0.1 * sin(5 * y);
+    return 0.2 * sin(5 * y);
 }
 
 /* Gives the top, the last face of a box, two or three labels, all with its plane. */
@@ -375,7 +398,7 @@ static void given_face_in_two_pieces_when_found_then_the_points_say_where_it_par
         between++;
         assert_true(edge->smooth);
         for (size_t i = 0; i < edge->count; i++)
-            assert_near(edge->points[3 * i], border_at(edge->points[3 * i + 1]), 2 * S);
+            assert_near(edge->points[3 * i], border_at(edge->points[3 * i + 1]), 3.5 * S);
     }
     assert_int_equal(between, 1);
     check_points(&w, 1e-9);
@@ -582,6 +605,7 @@ int main(void)
         cmocka_unit_test(given_dome_when_found_then_a_smooth_ring_joins_rod_and_sphere),
         cmocka_unit_test(given_filleted_box_when_found_then_smooth_edges_beside_the_fillet),
         cmocka_unit_test(given_face_in_two_pieces_when_found_then_the_points_say_where_it_parts),
+        cmocka_unit_test(given_fillet_tangent_by_construction_when_found_then_it_stays_as_it_is),
         cmocka_unit_test(given_face_in_three_pieces_when_found_then_they_meet_in_a_vertex),
         cmocka_unit_test(given_corner_without_points_when_found_then_it_is_where_edges_meet),
         cmocka_unit_test(given_edge_without_points_when_found_then_it_is_bridged),
