@@ -11,6 +11,8 @@
  * - A surface that is no quadric leaves more and more too, but ever more is added: the cubic terms
  *   alone eight times as much whenever the number of points doubles.
  *
+ * - The other side of a thin wall comes at once, and leaves what no noise leaves.
+ *
  * Where the variance grows from the first size to the second, and then at a falling rate, the last
  * such size tells the noise. How many points err alike follows from what a fit takes out of the
  * mean square of the residuals: each of its p parameters a share of (points alike) / (points). */
@@ -29,8 +31,10 @@ enum { WINDOWS = 500, SIZES = 4, LEAST = 24, MOST = LEAST << (SIZES - 1), GRAIN 
 static const double quantile = 0.3;    /* of the variances of windows of one size */
 static const double deviate = -0.5244; /* that quantile of a normal distribution */
 static const double growing = 1.3;     /* least ratio of the variances of the first two sizes */
-static const double lasting = 3.0; /* most added by twice the size, over what was added so far */
-static const double widest = 0.25; /* of all points in one window */
+static const double lasting = 3.0;  /* most added by twice the size, over what was added so far */
+static const double at_once = 8.0;  /* more than the eightfold comes of no smooth surface ... */
+static const double roughest = 0.7; /* ... and a greater deviation, in spacings, of no noise */
+static const double widest = 0.25;  /* of all points in one window */
 
 typedef struct survey {
     const double *points;
@@ -87,14 +91,17 @@ static double mean_square(double variance, int size)
     return variance * (count - CREASE_QUADRIC_TERMS) / count;
 }
 
-static crease_correlation judge(const survey *run, double sigma2)
+static crease_correlation judge(const survey *run, double sigma2, double spacing)
 {
+    const double most2 = roughest * roughest * spacing * spacing;
     crease_correlation found = {.points = 1.0};
     double before = fmax(variance_at(run, 0), sigma2), alike = 0.0;
     const double first = before;
     for (int size = 1; size < SIZES; size++) {
         const double now = variance_at(run, size), added = before - first;
         if (!isfinite(now) || (size == 1 ? now < growing * first : now - first > lasting * added))
+            break;
+        if (now > at_once * before && now > most2)
             break;
         const double taken = mean_square(now, size) - mean_square(before, size - 1);
         alike = fmax(alike, taken * (LEAST << size) / CREASE_QUADRIC_TERMS);
@@ -135,7 +142,7 @@ static crease_status look(crease_context *context, survey *run, double *variance
 }
 
 crease_status crease_correlation_estimate(crease_context *context, const double *points,
-    size_t count, double sigma2, crease_correlation *out)
+    size_t count, double sigma2, double spacing, crease_correlation *out)
 {
     *out = (crease_correlation){.points = 1.0};
     if (MOST + 1 > widest * (double)count)
@@ -145,7 +152,7 @@ crease_status crease_correlation_estimate(crease_context *context, const double 
     double *const variances = crease_allocate(context, run.windows, SIZES * sizeof *variances);
     const crease_status status = look(context, &run, variances);
     if (status == CREASE_OK)
-        *out = judge(&run, sigma2);
+        *out = judge(&run, sigma2, spacing);
     free(run.near);
     free(variances);
     return status;

@@ -14,8 +14,8 @@ typedef struct crease_correlation {
 } crease_correlation;
 
 /* sigma2: variance by windows of 24 points, in the square of the points' unit of length; the
- * result is in the same unit. */
+ * result is in the same unit. spacing: of the points. */
 crease_status crease_correlation_estimate(crease_context *context, const double *points,
-    size_t count, double sigma2, crease_correlation *out);
+    size_t count, double sigma2, double spacing, crease_correlation *out);
 
 #endif

@@ -325,8 +325,8 @@ static crease_status find_sigma(crease_context *context, estimate *run)
     noise->sigma = run->unit * sqrt(run->sigma2);
     const crease_status status = run->thin || noise->sigma > roughest * noise->spacing
         ? CREASE_OK
-        : crease_correlation_estimate(
-              context, run->points, run->count, noise->sigma * noise->sigma, &shared);
+        : crease_correlation_estimate(context, run->points, run->count, noise->sigma * noise->sigma,
+              noise->spacing, &shared);
     noise->sigma = fmax(noise->sigma, sqrt(shared.sigma2));
     noise->alike = run->terraced ? fmax(shared.points, terrace_points) : shared.points;
     return status;

@@ -117,6 +117,28 @@ static void both_sides_of_a_thin_wall_are_told_apart(void **state)
     crease_context_free(context);
 }
 
+/* The other wall comes into the larger windows only, by which shared errors are found. */
+static void walls_a_few_spacings_thick_are_no_shared_noise(void **state)
+{
+    static const double thicknesses[] = {3, 3.5, 4, 5, 7};
+    crease_context *context = given_context();
+    for (int i = 0; i < 10; i++) {
+        const double sigma = i % 2 ? 0.3 : 0.05;
+        struct faces faces = given_faces(0.02);
+        for (int side = 0; side < 2; side++)
+            add_rectangle(&faces, (double[]){0, 0, 0.02 * thicknesses[i / 2] * side},
+                (double[]){1, 0, 0}, (double[]){0, 1, 0}, 1, 1);
+        add_noise(&faces, sigma);
+        crease_noise *noise = given_noise(context, &faces);
+        if (!(crease_noise_sigma(noise) < 1.4 * 0.02 * sigma))
+            fail_msg("walls %g thick, noise %g: %g", thicknesses[i / 2], sigma,
+                crease_noise_sigma(noise) / 0.02);
+        crease_noise_free(noise);
+        free_faces(&faces);
+    }
+    crease_context_free(context);
+}
+
 static void independent_errors_are_not_taken_for_shared_ones(void **state)
 {
     static struct faces (*const shapes[])(double) = {given_square, given_tube, given_cube};
@@ -313,6 +335,7 @@ int main(void)
         cmocka_unit_test(spacing_is_the_root_of_the_area_of_a_point),
         cmocka_unit_test(normals_beside_edges_are_those_of_the_own_side),
         cmocka_unit_test(both_sides_of_a_thin_wall_are_told_apart),
+        cmocka_unit_test(walls_a_few_spacings_thick_are_no_shared_noise),
         cmocka_unit_test(independent_errors_are_not_taken_for_shared_ones),
         cmocka_unit_test(errors_along_scan_lines_are_found),
         cmocka_unit_test(terraces_of_rounded_depths_are_no_thin_walls),
