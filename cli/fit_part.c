@@ -116,6 +116,8 @@ static crease_status build(
     options.bspline_faces = s->faces == FACES_BSPLINE;
     options.open = s->method == METHOD_SHELL;
     crease_status status = crease_regions_find(context, cloud, &s->regions, &all->regions);
+    if (status == CREASE_OK && !s->no_snap)
+        status = crease_regions_snap(context, all->regions);
     if (status != CREASE_OK)
         return status;
     report_stage(r, "regions");
@@ -185,6 +187,37 @@ static void describe_kinds(report *r, const result *all)
         text, crease_part_edge_count(all->part), all->sharp_count);
 }
 
+/* What was snapped, by the numbers of the regions. */
+static void describe_snaps(report *r, const result *all)
+{
+    static const char *const names[] = {"parallel", "perpendicular", "coaxial", "equal radii"};
+    cJSON *list = cJSON_AddArrayToObject(r->root, "snapped");
+    for (size_t i = 0; i < crease_regions_snap_count(all->regions); i++) {
+        const crease_snap snap = crease_regions_snap_at(all->regions, i);
+        cJSON *object = cJSON_CreateObject();
+        cJSON_AddStringToObject(object, "to", names[snap.kind]);
+        cJSON *regions = cJSON_AddArrayToObject(object, "regions");
+        for (size_t k = 0; k < snap.region_count; k++)
+            cJSON_AddItemToArray(regions, cJSON_CreateNumber(snap.regions[k]));
+        cJSON_AddItemToArray(list, object);
+    }
+}
+
+/* How many of each kind. */
+static void tell_snaps(const report *r, const result *all)
+{
+    size_t counts[CREASE_SNAP_EQUAL_RADII + 1] = {0};
+    const size_t count = crease_regions_snap_count(all->regions);
+    for (size_t i = 0; i < count; i++)
+        counts[crease_regions_snap_at(all->regions, i).kind]++;
+    if (count > 0)
+        report_line(r,
+            "snapped within their errors: %zu parallel, %zu perpendicular, %zu coaxial, %zu equal "
+            "radii",
+            counts[CREASE_SNAP_PARALLEL], counts[CREASE_SNAP_PERPENDICULAR],
+            counts[CREASE_SNAP_COAXIAL], counts[CREASE_SNAP_EQUAL_RADII]);
+}
+
 static void describe(report *r, const settings *s, result *all)
 {
     static const char *const states[] = {"solid", "shell", "faces"};
@@ -202,6 +235,7 @@ static void describe(report *r, const settings *s, result *all)
     cJSON_AddNumberToObject(r->root, "noise", crease_regions_sigma(all->regions));
     deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
     describe_lists(r, all);
+    describe_snaps(r, all);
     if (state == CREASE_PART_SOLID)
         report_line(r, "%s, volume %.6g%s%s", words[state], volume, *why ? "; but " : "", why);
     else if (s->method == METHOD_SHELL)
@@ -209,6 +243,7 @@ static void describe(report *r, const settings *s, result *all)
     else
         report_line(r, "%s: %s", words[state], why);
     describe_kinds(r, all);
+    tell_snaps(r, all);
     report_line(r, "deviation: rms %.4g, 95 %% below %.4g, max %.4g; noise %.2g", d.rms, d.p95,
         d.most, crease_regions_sigma(all->regions));
 }

@@ -42,6 +42,10 @@ const option option_table[] = {
         "as a "
         "B-spline surface",
         NULL},
+    {"no-snap", 0, OPTION_FLAG, NULL, FOR_FIT, AT(no_snap), 0, 0, NULL,
+        "part, shell: leave surfaces that are parallel, perpendicular, coaxial or equally large within "
+        "their errors as the points have them",
+        NULL},
     {"sigma", 0, OPTION_REAL, "S", FOR_DETECT | FOR_FIT | FOR_FILTER, AT(sigma), 0, 1e150, NULL,
         "noise of the points along the normal, when it is known: a length; each point is then "
         "taken to err by itself. A sheet finds its own",

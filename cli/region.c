@@ -33,13 +33,33 @@ void region_counts_describe(cJSON *object, const region_counts *counts)
         cJSON_AddNumberToObject(object, names[i].member, (double)counts->of[i]);
 }
 
+/* The errors of what the type has. */
+static void describe_errors(cJSON *object, const crease_region *region)
+{
+    const crease_region_type type = region->type;
+    cJSON_AddNumberToObject(object, "place_error", region->place_error);
+    if (type == CREASE_REGION_FREEFORM)
+        return;
+    if (type != CREASE_REGION_SPHERE)
+        cJSON_AddNumberToObject(object, type == CREASE_REGION_PLANE ? "normal_error" : "axis_error",
+            region->direction_error);
+    if (type != CREASE_REGION_PLANE)
+        cJSON_AddNumberToObject(object, "radius_error", region->radius_error);
+    if (type == CREASE_REGION_CONE)
+        cJSON_AddNumberToObject(object, "slope_error", region->shape_error);
+    if (type == CREASE_REGION_TORUS)
+        cJSON_AddNumberToObject(object, "tube_radius_error", region->shape_error);
+}
+
 void region_describe(cJSON *object, const crease_region *region)
 {
     const double *number = region->parameters;
     const crease_region_type type = region->type;
     cJSON_AddStringToObject(object, "type", names[type].one);
-    if (type == CREASE_REGION_FREEFORM)
+    if (type == CREASE_REGION_FREEFORM) {
+        describe_errors(object, region);
         return;
+    }
     report_vector(object, "place", number);
     number += 3;
     if (type != CREASE_REGION_SPHERE) {
@@ -52,4 +72,5 @@ void region_describe(cJSON *object, const crease_region *region)
         cJSON_AddNumberToObject(object, "slope", *number);
     if (type == CREASE_REGION_TORUS)
         cJSON_AddNumberToObject(object, "tube_radius", *number);
+    describe_errors(object, region);
 }

@@ -51,6 +51,7 @@ typedef struct settings {
     double sigma; /* for the regions and the filter */
     int method;   /* fit_method */
     int faces;    /* face_kind */
+    bool no_snap;
     crease_averaging_options averaging;
     crease_sheet_options sheet;
     int orientation; /* crease_orientation, shared by both methods */

@@ -417,6 +417,14 @@ typedef struct crease_region {
                              when the surface explains the points */
     int32_t tangent[2]; /**< fillets, which are cylinders: the two regions that the surface is
                              exactly tangent to; -1: none */
+    /* Standard errors, from the covariance of the fit with the noise of the points; 0 for what the
+     * type does not have. Of a fillet: with its planes given. */
+    double place_error;     /**< plane: of its place along the normal; cylinder, cone: of the axis,
+                                 across it, at its point; sphere, torus: of the centre; free form:
+                                 along the normal, in the mean */
+    double direction_error; /**< of the normal or the axis, degrees */
+    double radius_error;
+    double shape_error; /**< cone: of the growth of its radius; torus: of the tube's radius */
 } crease_region;
 
 typedef struct crease_regions_options {
@@ -450,6 +458,32 @@ CREASE_API crease_region crease_regions_at(const crease_regions *regions, size_t
  * unit gradient there. Free forms: to first order. */
 CREASE_API double crease_regions_distance(
     const crease_regions *regions, size_t index, const double place[3], double gradient[3]);
+
+/** What several surfaces have in common. */
+typedef enum crease_snap_kind {
+    CREASE_SNAP_PARALLEL,      /**< normals of planes, axes of cylinders, cones and tori */
+    CREASE_SNAP_PERPENDICULAR, /**< two of these, each standing for all that are parallel to it */
+    CREASE_SNAP_COAXIAL,       /**< cylinders, cones, tori */
+    CREASE_SNAP_EQUAL_RADII    /**< parallel cylinders, spheres */
+} crease_snap_kind;
+
+/** Regions whose surfaces were made to have something exactly in common. */
+typedef struct crease_snap {
+    crease_snap_kind kind;
+    size_t region_count;     /**< 2 or more */
+    const uint32_t *regions; /**< their numbers, as long as the regions live */
+} crease_snap;
+
+/** Makes surfaces exactly parallel, perpendicular, coaxial or equally large that are so within
+ * their errors: no surface moves further than 99 of 100 fits of the same kind err, by the
+ * covariance of its fit, and all its other parameters move to what is then the most probable.
+ * Fillets follow their planes. Free forms, surfaces that do not explain their points, and those of
+ * fewer than 20 points stay as they are. A second call does nothing. O(points + regions^2). Errors:
+ * NO_MEMORY. */
+CREASE_API crease_status crease_regions_snap(crease_context *context, crease_regions *regions);
+/** What has been snapped: nothing before crease_regions_snap(). */
+CREASE_API size_t crease_regions_snap_count(const crease_regions *regions);
+CREASE_API crease_snap crease_regions_snap_at(const crease_regions *regions, size_t index);
 
 /* ----------------------------------------------------------------------------------- splines -- */
 

@@ -10,7 +10,7 @@
 
 from ._cloud import Cloud, read, write
 from ._compare import ComparedFace, Comparison, compare
-from ._detect import Corner, Crease, Detection, Region, detect
+from ._detect import Corner, Crease, Detection, Region, Snap, detect
 from ._deviation import Deviation
 from ._errors import Error, Failure, InputError, InputWarning, UsageError
 from ._example import example
@@ -26,6 +26,6 @@ __version__: str = _LIBRARY.crease_version().decode()
 __all__ = [
     "Cloud", "ComparedFace", "Comparison", "Corner", "Crease", "Curve", "Detection", "Deviation",
     "Edge", "Error", "Face", "Failure", "Filtered", "HAS_CAD", "InputError", "InputWarning", "Line",
-    "Mesh", "Part", "Region", "Sheet", "Surface", "UsageError", "compare", "detect", "example",
-    "filter", "fit", "read", "write",
+    "Mesh", "Part", "Region", "Sheet", "Snap", "Surface", "UsageError", "compare", "detect",
+    "example", "filter", "fit", "read", "write",
 ]

@@ -153,7 +153,20 @@ class RegionsOptions(Structure):
 class Region(Structure):
     _fields_ = [("type", c_int), ("parameters", c_double * 8), ("parameter_count", c_size_t),
                 ("point_count", c_size_t), ("rms", c_double), ("chi", c_double),
-                ("tangent", c_int32 * 2)]
+                ("tangent", c_int32 * 2), ("place_error", c_double),
+                ("direction_error", c_double), ("radius_error", c_double),
+                ("shape_error", c_double)]
+
+
+class SnapKind(IntEnum):
+    PARALLEL = 0
+    PERPENDICULAR = 1
+    COAXIAL = 2
+    EQUAL_RADII = 3
+
+
+class Snap(Structure):
+    _fields_ = [("kind", c_int), ("region_count", c_size_t), ("regions", POINTER(c_uint32))]
 
 
 class SurfaceParts(Structure):
@@ -294,6 +307,9 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "crease_regions_spacing": (c_double, _object),
     "crease_regions_sigma": (c_double, _object),
     "crease_regions_at": (Region, _object, c_size_t),
+    "crease_regions_snap": (c_int, _object, _object),
+    "crease_regions_snap_count": (c_size_t, _object),
+    "crease_regions_snap_at": (Snap, _object, c_size_t),
     "crease_network_find": (c_int, _object, _object, c_void_p, _out),
     "crease_network_free": (None, _object),
     "crease_network_count": (c_size_t, _object),

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._cloud import Cloud, Points, as_cloud
-from ._declarations import Detector, RegionType
+from ._declarations import Detector, RegionType, SnapKind
 from ._facts import Facts, surface_facts
 from ._library import LIBRARY
 from ._memory import Handle, addresses, borrowed, view
@@ -36,6 +36,10 @@ class Region:
     rms: float  #: their root mean square distance from it
     chi: float  #: their mean squared distance over the squared noise: about 1 when it explains them
     tangent: tuple[int, ...]  #: of a fillet: the two regions that it is exactly tangent to
+    place_error: float  #: standard error of its place: see crease.h
+    direction_error: float  #: of its normal or axis, in degrees
+    radius_error: float
+    shape_error: float  #: of a cone's slope, of the radius of a torus' tube
 
 
 @dataclass(frozen=True)
@@ -65,8 +69,25 @@ def regions_of(handle: Handle) -> list[Region]:
         one = LIBRARY.crease_regions_at(handle, index)
         found.append(Region(RegionType(one.type).name.lower(),
                             tuple(one.parameters[:one.parameter_count]), one.point_count, one.rms,
-                            one.chi, tuple(one.tangent) if one.tangent[0] >= 0 else ()))
+                            one.chi, tuple(one.tangent) if one.tangent[0] >= 0 else (),
+                            one.place_error, one.direction_error, one.radius_error,
+                            one.shape_error))
     return found
+
+
+@dataclass(frozen=True)
+class Snap:
+    """Regions whose surfaces were made to have something exactly in common."""
+    to: str  #: parallel, perpendicular, coaxial or equal_radii
+    regions: tuple[int, ...]  #: their numbers
+
+
+def snaps_of(handle: Handle) -> list[Snap]:
+    """What was snapped."""
+    found = (LIBRARY.crease_regions_snap_at(handle, index)
+             for index in range(LIBRARY.crease_regions_snap_count(handle)))
+    return [Snap(SnapKind(one.kind).name.lower(), tuple(one.regions[:one.region_count]))
+            for one in found]
 
 
 def write_curves(work: Work, curves: list[Curve], path: Path) -> None:

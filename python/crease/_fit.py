@@ -20,7 +20,7 @@ from ._part import Part, build_part
 from ._sheet import Sheet
 from ._work import ProgressCallback, Work
 
-_PART = {"sigma", "faces"}
+_PART = {"sigma", "faces", "no_snap"}
 _TURN = {"net", "orientation", "rotation"}
 _SHEET = _TURN | {"order", "most_creases", "smoothing", "tolerance"}
 _AVERAGING = _TURN | {"neighbours", "resamples", "averaging_neighbours", "passes",
@@ -99,19 +99,20 @@ def fit(points: Points, *, method: Literal["averaging"], net: ArrayLike | None =
 
 @overload
 def fit(points: Points, *, method: Literal["part"], sigma: float | None = ...,
-        faces: Literal["analytic", "bspline"] | None = ..., seed: int = ..., threads: int = ...,
-        progress: ProgressCallback | None = ...) -> Part: ...
+        faces: Literal["analytic", "bspline"] | None = ..., no_snap: bool = ..., seed: int = ...,
+        threads: int = ..., progress: ProgressCallback | None = ...) -> Part: ...
 
 
 @overload
 def fit(points: Points, *, method: Literal["shell"], sigma: float | None = ...,
-        faces: Literal["analytic", "bspline"] | None = ..., seed: int = ..., threads: int = ...,
-        progress: ProgressCallback | None = ...) -> Part: ...
+        faces: Literal["analytic", "bspline"] | None = ..., no_snap: bool = ..., seed: int = ...,
+        threads: int = ..., progress: ProgressCallback | None = ...) -> Part: ...
 
 
 @overload
 def fit(points: Points, *, method: Literal["automatic"] = ..., sigma: float | None = ...,
-        faces: Literal["analytic", "bspline"] | None = ..., net: ArrayLike | None = ...,
+        faces: Literal["analytic", "bspline"] | None = ..., no_snap: bool = ...,
+        net: ArrayLike | None = ...,
         orientation: Literal["automatic", "none"] | None = ..., rotation: ArrayLike | None = ...,
         order: int | None = ..., most_creases: int | None = ..., smoothing: float | None = ...,
         tolerance: float | None = ..., seed: int = ..., threads: int = ...,
@@ -130,7 +131,8 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
     part.
 
     Of part and shell: sigma: noise of the points along the normal, when it is known; faces: analytic (planes,
-    cylinders ... as what they are) or bspline.
+    cylinders ... as what they are) or bspline; no_snap: leave surfaces that are parallel,
+    perpendicular, coaxial or equally large within their errors as the points have them.
     Of sheet and averaging: net: control points across and along the edge; orientation: automatic or
     none; rotation: 3 x 3, turns the cloud instead.
     Of sheet: order; most_creases in each direction; smoothing: weight of the thin-plate term;
@@ -149,7 +151,8 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
         if method == "automatic":
             method = _chosen(work, cloud, given)
         if method in ("part", "shell"):
-            return build_part(work, cloud, method, *_part_options(method, given))
+            return build_part(work, cloud, method, *_part_options(method, given),
+                              snap=not given.get("no_snap", False))
         if method == "averaging":
             handle = work.make("sheet", "crease_averaging_fit", cloud._handle,
                                byref(_averaging_options(given)))

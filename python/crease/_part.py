@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ._cloud import Cloud
 from ._declarations import NONE, PartOptions, PartState, RegionsOptions
-from ._detect import Region, regions_of, write_curves
+from ._detect import Region, Snap, regions_of, snaps_of, write_curves
 from ._deviation import Deviation, summarise
 from ._facts import Facts, deviation_facts, surface_facts
 from ._library import LIBRARY, require_cad
@@ -64,6 +64,7 @@ class Part(Seen):
         self._cloud, self._handle, self.method = cloud, handle, method
         self._noise = float(LIBRARY.crease_regions_sigma(regions))
         self.regions: list[Region] = regions_of(regions)
+        self.snapped: list[Snap] = snaps_of(regions)
 
     def __repr__(self) -> str:
         return (f"<crease.Part: {self.state}, {len(self.faces)} faces, {len(self.creases)} "
@@ -182,10 +183,12 @@ def _edge_facts(edge: Edge) -> Facts:
 
 
 def build_part(work: Work, cloud: Cloud, method: str, splitting: RegionsOptions,
-               options: PartOptions) -> Part:
+               options: PartOptions, *, snap: bool) -> Part:
     """The part that the points lie on."""
     require_cad(f"method {method}")
     regions = work.make("regions", "crease_regions_find", cloud._handle, byref(splitting))
+    if snap:
+        work.call("crease_regions_snap", regions)
     network = work.make("network", "crease_network_find", regions, None)
     with _BUILDING:
         handle = work.make("part", "crease_part_build", cloud._handle, regions, network,

@@ -11,6 +11,7 @@
 #include "segment/excerpt.h"
 #include "segment/fillet.h"
 #include "segment/segmentation.h"
+#include "segment/uncertainty.h"
 #include "space/morton.h"
 
 #include <math.h>
@@ -485,6 +486,7 @@ void crease_regions_free(crease_regions *regions)
     free(regions->models);
     free(regions->sizes);
     free(regions->rms);
+    crease_snaps_clear(&regions->snaps);
     free(regions->labels_by_index);
     free(regions->normals_by_index);
     free(regions);
@@ -528,6 +530,20 @@ static void add_numbers(crease_region *region, const double *numbers, size_t cou
     region->parameter_count += count;
 }
 
+static void add_errors(crease_region *region, const crease_regions *regions, size_t index)
+{
+    const crease_model *const model = &regions->models[index];
+    const crease_model *planes[2] = {0};
+    for (int i = 0; i < model->tangent_count; i++)
+        planes[i] = &regions->models[model->tangent[i]];
+    const crease_uncertainty errors =
+        crease_model_uncertainty(model, model->tangent_count == 2 ? planes : NULL);
+    region->place_error = errors.place;
+    region->direction_error = errors.direction * 180.0 / acos(-1.0);
+    region->radius_error = errors.radius;
+    region->shape_error = errors.shape;
+}
+
 crease_region crease_regions_at(const crease_regions *regions, size_t index)
 {
     const crease_model *const model = &regions->models[index];
@@ -537,6 +553,7 @@ crease_region crease_regions_at(const crease_regions *regions, size_t index)
         .chi = model->chi,
         .tangent = {CREASE_NO_REGION, CREASE_NO_REGION}};
     memcpy(region.tangent, model->tangent, (size_t)model->tangent_count * sizeof *model->tangent);
+    add_errors(&region, regions, index);
     if (model->type == CREASE_REGION_FREEFORM)
         return region;
     add_numbers(&region, model->centre, 3);

@@ -11,6 +11,7 @@
 
 #include "cloud/noise.h"
 #include "segment/model.h"
+#include "segment/snaps.h"
 #include "space/neighbours.h"
 
 enum { CREASE_NO_REGION = -1 };
@@ -34,6 +35,8 @@ struct crease_regions {
     double *rms;              /* of the distances of a region's points from its model */
     int32_t *labels_by_index; /* what the public accessors return */
     double *normals_by_index;
+    bool snapped;
+    crease_snaps snaps;
 };
 
 #endif

@@ -162,6 +162,7 @@ assert len(r["faces"]) == 6 and len(r["edges"]) == 12
 for f in r["faces"]:
     assert f["type"] == "plane" and abs(f["area"] - 1) < 1e-6 and f["points"] > 900 and f["max"] < 1e-6, f
     assert len(f["normal"]) == len(f["place"]) == 3
+    assert 0 < f["place_error"] < 0.01 and 0 < f["normal_error"] < 1, f
 for e in r["edges"]:
     assert abs(e["length"] - 1) < 1e-6 and abs(e["angle"] - 90) < 1e-4 and not e["smooth"], e
 assert {"regions", "creases", "part", "write"} <= set(r["seconds"])'
@@ -173,6 +174,15 @@ expect 0 "1 solids" info pb.step
 expect 0 "control points" fit cube.ply --method sheet -o forced.step
 expect 2 "analytic or bspline" fit cube.ply --faces round
 expect 0 "noise 0.003" fit cube.ply --sigma 0.003 -o known.step
+expect 0 "3 parallel, 3 perpendicular, 0 coaxial, 0 equal radii" fit cube.ply -o sn.step --report sn.json
+expect 0 "closed, valid solid" fit cube.ply --no-snap -o sf.step --report sf.json
+check "the report lists what was snapped, by region" python3 -c '
+import json
+on, off = json.load(open("sn.json")), json.load(open("sf.json"))
+assert off["snapped"] == []
+kinds = [s["to"] for s in on["snapped"]]
+assert kinds == ["parallel"] * 3 + ["perpendicular"] * 3, kinds
+assert sorted(r for s in on["snapped"][:3] for r in s["regions"]) == list(range(6))'
 expect 0 "30000 points" example bracket -o bracket.ply
 expect 0 "11 faces: 8 planes, 3 cylinders" fit bracket.ply -o bracket.step
 expect 0 "1 solids, 1 shells (1 closed), 11 faces" info bracket.step

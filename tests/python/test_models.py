@@ -76,6 +76,13 @@ def test_the_part_of_the_cube_is_a_solid(part):
     assert np.ptp(part.mesh.vertices, axis=0) == pytest.approx([1, 1, 1])
 
 
+def test_the_sides_of_the_cube_are_snapped_unless_told_not_to(part, cube):
+    assert [snap.to for snap in part.snapped] == ["parallel"] * 3 + ["perpendicular"] * 3
+    assert sorted(sum((snap.regions for snap in part.snapped[:3]), ())) == list(range(6))
+    assert all(region.direction_error > 0 and region.place_error > 0 for region in part.regions)
+    assert crease.fit(cube, method="part", no_snap=True).snapped == []
+
+
 def test_automatic_is_a_sheet_where_no_surface_lies_over_another(points, cube):
     assert isinstance(crease.fit(points), crease.Sheet)
     assert isinstance(crease.fit(cube, net=(7, 7)), crease.Sheet)

@@ -7,6 +7,7 @@
 #include "segment/fitter.h"
 #include "segment/patch.h"
 #include "segment/primitive.h"
+#include "segment/uncertainty.h"
 
 /* The primitives that the tests measure, in a frame along no axis, far from the origin. */
 static crease_model given_model(crease_region_type type)
@@ -268,6 +269,116 @@ static void noisy_fits_are_as_good_as_they_say(void **state)
     end(&bench);
 }
 
+/* How far a model's parameters are from the true ones, in the sense of crease_uncertainty. */
+static crease_uncertainty true_errors(const crease_model *model, const crease_model *truth)
+{
+    double d[3];
+    for (int c = 0; c < 3; c++)
+        d[c] = model->centre[c] - truth->centre[c];
+    const crease_region_type type = truth->type;
+    const double along = crease_vector_dot(d, truth->axes + 6);
+    const double across = sqrt(fmax(crease_vector_dot(d, d) - along * along, 0));
+    const double cosine = crease_vector_dot(model->axes + 6, truth->axes + 6);
+    const double sign = cosine < 0 ? -1 : 1;
+    /* what the true radius is where the found centre is */
+    const double radius = truth->radius + (type == CREASE_REGION_CONE ? along * truth->shape : 0);
+    return (crease_uncertainty){.place = type == CREASE_REGION_PLANE       ? fabs(along)
+            : type == CREASE_REGION_CYLINDER || type == CREASE_REGION_CONE ? across
+                                                                           : hypot(along, across),
+        .direction = type == CREASE_REGION_SPHERE ? 0 : acos(fmin(fabs(cosine), 1)),
+        .radius = type == CREASE_REGION_PLANE ? 0 : fabs(model->radius - radius),
+        .shape = type == CREASE_REGION_CONE ? fabs(sign * model->shape - truth->shape)
+            : type == CREASE_REGION_TORUS   ? fabs(model->shape - truth->shape)
+                                            : 0};
+}
+
+static void assert_ratio(const char *kind, const char *what, double turn, double sum, double of)
+{
+    if (of == 0 && sum == 0)
+        return;
+    if (!(sum > 0.6 * of && sum < 1.6 * of))
+        fail_msg(
+            "%s over %g: squared error of its %s %g, said to be %g", kind, turn, what, sum, of);
+}
+
+static void parameters_err_as_much_as_they_say(void **state)
+{
+    enum { SAMPLES = 150, POINTS = 300 };
+    static const double turns[] = {1, 0.3};
+    const double sigma = 0.02;
+    struct bench bench = given_fitter(sigma);
+    crease_fitter *const fitter = &bench.fitters[0];
+    for (int type = CREASE_REGION_PLANE; type <= CREASE_REGION_TORUS; type++)
+        for (int part = 0; part < 2; part++) {
+            const crease_model truth = given_model((crease_region_type)type);
+            crease_uncertainty err = {0}, said = {0};
+            for (uint64_t i = 0; i < SAMPLES; i++) {
+                fill_sample(&fitter->sample, &truth, POINTS, turns[part], sigma, 100 + i);
+                assert_true(crease_fit_kind(fitter, &fitter->sample, truth.type, &truth));
+                crease_fit_covariance(fitter, &fitter->sample, &fitter->best);
+                const crease_uncertainty e = true_errors(&fitter->best, &truth);
+                const crease_uncertainty u = crease_model_uncertainty(&fitter->best, NULL);
+                err.place += e.place * e.place, said.place += u.place * u.place;
+                err.direction += e.direction * e.direction;
+                said.direction += u.direction * u.direction;
+                err.radius += e.radius * e.radius, said.radius += u.radius * u.radius;
+                err.shape += e.shape * e.shape, said.shape += u.shape * u.shape;
+            }
+            assert_ratio(names[type], "place", turns[part], err.place, said.place);
+            assert_ratio(names[type], "direction", turns[part], err.direction, said.direction);
+            assert_ratio(names[type], "radius", turns[part], err.radius, said.radius);
+            assert_ratio(names[type], "shape", turns[part], err.shape, said.shape);
+        }
+    end(&bench);
+}
+
+/* A square of side 3 with n points: sigma / sqrt(n), and that over 3 / sqrt(12), for each of two
+ * directions. */
+static void errors_of_a_plane_are_the_textbook_ones(void **state)
+{
+    const double sigma = 0.02, n = 300;
+    struct bench bench = given_fitter(sigma);
+    crease_fitter *const fitter = &bench.fitters[0];
+    const crease_model truth = given_model(CREASE_REGION_PLANE);
+    fill_sample(&fitter->sample, &truth, (size_t)n, 1, sigma, 3);
+    assert_true(crease_fit_kind(fitter, &fitter->sample, truth.type, &truth));
+    crease_fit_covariance(fitter, &fitter->sample, &fitter->best);
+    const crease_uncertainty u = crease_model_uncertainty(&fitter->best, NULL);
+    assert_near(u.place / (sigma / sqrt(n)), 1, 0.15);
+    assert_near(u.direction / (sigma / sqrt(n) * sqrt(2) / (3 / sqrt(12))), 1, 0.15);
+    assert_true(u.radius == 0 && u.shape == 0);
+    end(&bench);
+}
+
+/* A quarter of a rolled cylinder: its radius alone is free, so it is known the better. */
+static void a_fillet_errs_less_than_a_free_cylinder(void **state)
+{
+    struct bench bench = given_fitter(0.02);
+    crease_fitter *const fitter = &bench.fitters[0];
+    const crease_model truth = given_model(CREASE_REGION_CYLINDER);
+    crease_model planes[2];
+    for (int i = 0; i < 2; i++) { /* tangent where the quarter begins and ends */
+        planes[i] = (crease_model){.type = CREASE_REGION_PLANE};
+        memcpy(planes[i].axes + 6, truth.axes + 3 * i, 3 * sizeof(double));
+        crease_primitive_frame(planes[i].axes);
+        for (int c = 0; c < 3; c++)
+            planes[i].centre[c] = truth.centre[c] + 2 * truth.axes[3 * i + c];
+    }
+    fill_sample(&fitter->sample, &truth, 300, 0.25, 0.02, 3);
+    assert_true(crease_fit_kind(fitter, &fitter->sample, truth.type, &truth));
+    crease_fit_covariance(fitter, &fitter->sample, &fitter->best);
+    const crease_model *const pair[2] = {&planes[0], &planes[1]};
+    const crease_uncertainty alone = crease_model_uncertainty(&fitter->best, NULL);
+    const crease_uncertainty u = crease_model_uncertainty(&fitter->best, pair);
+    /* the distance of a point changes with the radius by sqrt(2) cos(angle from the middle) - 1 */
+    const double pi = acos(-1.0),
+                 mean = 2 * (0.5 + 1 / pi) - 2 * sqrt(2) * sin(pi / 4) / (pi / 4) + 1;
+    assert_near(u.radius / (0.02 / sqrt(300 * mean)), 1, 0.2);
+    assert_near(u.place, sqrt(2) * u.radius, 1e-3 * u.radius);
+    assert_true(u.radius < alone.radius && u.place < alone.place);
+    end(&bench);
+}
+
 static void a_fifth_of_outliers_does_no_harm(void **state)
 {
     struct bench bench = given_fitter(0.01);
@@ -460,6 +571,9 @@ int main(void)
         cmocka_unit_test(derivatives_are_those_of_small_changes),
         cmocka_unit_test(exact_samples_give_exact_primitives),
         cmocka_unit_test(noisy_fits_are_as_good_as_they_say),
+        cmocka_unit_test(parameters_err_as_much_as_they_say),
+        cmocka_unit_test(errors_of_a_plane_are_the_textbook_ones),
+        cmocka_unit_test(a_fillet_errs_less_than_a_free_cylinder),
         cmocka_unit_test(a_fifth_of_outliers_does_no_harm),
         cmocka_unit_test(planes_are_no_round_bodies),
         cmocka_unit_test(degenerate_samples_are_refused_or_harmless),

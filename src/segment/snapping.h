@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* The work in progress of snapping: bodies that are turned, moved and resized by the stages in
+ * turn. What an earlier stage settled is not touched by a later one. */
+#ifndef CREASE_SEGMENT_SNAPPING_H
+#define CREASE_SEGMENT_SNAPPING_H
+
+#include "segment/body.h"
+#include "segment/region.h"
+
+typedef struct crease_snapping {
+    crease_context *context;
+    crease_regions *regions;
+    size_t count;
+    crease_body *bodies;
+    bool *takes_part, *has_axis, *moved;
+    crease_clusters directions, axes, radii;
+    double (*axis_of)[3];   /* of each cluster of directions */
+    double (*across)[2][3]; /* two directions at right angles to it */
+    int32_t (*upright)[2];  /* the clusters that it was made perpendicular to, or -1 */
+} crease_snapping;
+
+/* Directions equal or at right angles, the most certain of them first. */
+crease_status crease_snap_directions(crease_snapping *all);
+/* Axes of one direction that are one; not before the directions. */
+crease_status crease_snap_axes(crease_snapping *all);
+/* Radii; not before the axes. */
+crease_status crease_snap_radii(crease_snapping *all);
+
+#endif
