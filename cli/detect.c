@@ -4,6 +4,7 @@
 /* crease detect: the sharp edges of a cloud, as curves and as labels of its points. */
 #include "cad.h"
 #include "command.h"
+#include "engine.h"
 #include "facts.h"
 #include "input.h"
 #include "outputs.h"
@@ -66,11 +67,11 @@ static crease_status label(
 static crease_status find(
     crease_context *context, const settings *s, report *r, const crease_cloud *cloud, result *all)
 {
-    crease_status status = crease_scores_compute(context, cloud, &s->detect, &all->scores);
+    crease_status status = engine_scores(context, cloud, &s->detect, &all->scores);
     if (status != CREASE_OK)
         return status;
     report_stage(r, "scores");
-    status = crease_regions_find(context, cloud, &s->regions, &all->regions);
+    status = engine_regions(context, cloud, &s->regions, &all->regions);
     if (status != CREASE_OK)
         return status;
     report_stage(r, "regions");

@@ -8,6 +8,7 @@
 #include "cad.h"
 #include "crease/crease_cad.h"
 #include "deviation.h"
+#include "engine.h"
 #include "facts.h"
 #include "outputs.h"
 #include "region.h"
@@ -115,7 +116,7 @@ static crease_status build(
     crease_part_options options = crease_part_options_default();
     options.bspline_faces = s->faces == FACES_BSPLINE;
     options.open = s->method == METHOD_SHELL;
-    crease_status status = crease_regions_find(context, cloud, &s->regions, &all->regions);
+    crease_status status = engine_regions(context, cloud, &s->regions, &all->regions);
     if (status == CREASE_OK && !s->no_snap)
         status = crease_regions_snap(context, all->regions);
     if (status != CREASE_OK)

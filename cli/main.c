@@ -3,6 +3,7 @@
 
 /* crease: the program. Finds the command, runs it, tells how it went. */
 #include "command.h"
+#include "engine.h"
 #include "help.h"
 #include "terminal.h"
 
@@ -128,6 +129,17 @@ static crease_status run(const command *c, crease_context *context, const settin
     return status;
 }
 
+static crease_status lead(const command *c, crease_context *context, const settings *s)
+{
+    crease_status status = engine_begin(context, s->threads);
+    if (status == CREASE_OK)
+        status = run(c, context, s);
+    else
+        fprintf(stderr, "crease: %s\n", crease_context_message(context));
+    engine_end(status);
+    return status;
+}
+
 static int run_command(const command *c, int count, char **arguments)
 {
     settings s = settings_default();
@@ -149,7 +161,7 @@ static int run_command(const command *c, int count, char **arguments)
     crease_context *context = NULL;
     crease_status status = crease_context_create(&o, &context);
     if (status == CREASE_OK)
-        status = run(c, context, &s);
+        status = lead(c, context, &s);
     else
         fprintf(stderr, "crease: %s\n", crease_status_sentence(status));
     crease_context_free(context);
@@ -181,7 +193,7 @@ static int run_global(int count, char **arguments)
     return 0;
 }
 
-int main(int count, char **arguments)
+static int program(int count, char **arguments)
 {
     if (count < 2) {
         help_overview(stderr);
@@ -191,4 +203,9 @@ int main(int count, char **arguments)
         if (strcmp(commands[i].name, arguments[1]) == 0)
             return run_command(&commands[i], count - 2, arguments + 2);
     return run_global(count, arguments);
+}
+
+int main(int count, char **arguments)
+{
+    return engine_main(count, arguments, program);
 }

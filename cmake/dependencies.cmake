@@ -25,3 +25,7 @@ if(CREASE_CAD)
     list(APPEND CREASE_OCCT ${OCCT_${toolkit}})
   endforeach()
 endif()
+
+if(CREASE_MPI)
+  find_package(MPI REQUIRED COMPONENTS C)
+endif()

@@ -14,6 +14,9 @@ struct crease_scores {
     uint8_t *features; /* count */
 };
 
+/* Makes room for the scores of so many points, all 0. */
+crease_status crease_scores_create(crease_context *context, size_t count, crease_scores **out);
+
 /* Room for the normals of the resamples of one neighbourhood. */
 typedef struct crease_resamples {
     size_t room;       /* B */

@@ -16,10 +16,8 @@
 #include "detect/threshold.h"
 
 #include <math.h>
-#include <string.h>
 
-/* A histogram of ln(score): bins of 1/50 from e^-92, which stands for zero, to 1 and more. */
-enum { BINS = 4600, PER_UNIT = 50 };
+enum { BINS = CREASE_HISTOGRAM_BINS, PER_UNIT = 50 };
 
 /* Scores are no closer to the greatest possible one than this. */
 static const double rounding = 1e-12;
@@ -38,7 +36,7 @@ static double value_of(double bin)
 }
 
 /* ln(score) below which the share of all points lies, interpolated within its bin. */
-static double quantile(const size_t *histogram, size_t count, double share)
+static double quantile(const uint64_t *histogram, size_t count, double share)
 {
     const double wanted = share * (double)count;
     double below = 0;
@@ -53,9 +51,9 @@ static double quantile(const size_t *histogram, size_t count, double share)
 
 /* The first bin so that of the points from it on, noise explains a share below the rate. */
 static size_t step_up(
-    const size_t *histogram, size_t count, double centre, double width, double rate)
+    const uint64_t *histogram, size_t count, double centre, double width, double rate)
 {
-    size_t found = 0, first = BINS;
+    uint64_t found = 0, first = BINS;
     for (size_t bin = BINS; bin-- > 0;) {
         found += histogram[bin];
         const double score = (value_of((double)bin) - centre) / width;
@@ -66,16 +64,20 @@ static size_t step_up(
     return first;
 }
 
-double crease_threshold_find(const double *scores, size_t count, const crease_threshold_rule *rule)
+void crease_threshold_count(
+    crease_histogram *histogram, double score, const crease_threshold_rule *rule)
 {
-    size_t histogram[BINS];
-    memset(histogram, 0, sizeof histogram);
-    for (size_t i = 0; i < count; i++)
-        histogram[bin_of(scores[i] / fmax(1 - scores[i] / rule->most, rounding))]++;
-    const double centre = quantile(histogram, count, 0.5);
-    const double measured = fmax(centre - quantile(histogram, count, 0.1587), 1.0 / PER_UNIT);
+    histogram->bin[bin_of(score / fmax(1 - score / rule->most, rounding))]++;
+}
+
+double crease_threshold_find(
+    const crease_histogram *histogram, size_t count, const crease_threshold_rule *rule)
+{
+    const uint64_t *const bins = histogram->bin;
+    const double centre = quantile(bins, count, 0.5);
+    const double measured = fmax(centre - quantile(bins, count, 0.1587), 1.0 / PER_UNIT);
     const double width = fmin(measured, 3 / sqrt(rule->k));
-    const size_t first = step_up(histogram, count, centre, width, rule->rate);
+    const size_t first = step_up(bins, count, centre, width, rule->rate);
     if (first == BINS)
         return INFINITY;
     const double found = exp(value_of((double)first));

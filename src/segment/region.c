@@ -413,19 +413,23 @@ static crease_status sort_points(
     return status;
 }
 
+static crease_status find_surroundings(crease_context *context, void *user, const double *points,
+    size_t count, int k, crease_neighbours **neighbours, crease_noise **noise)
+{
+    (void)user;
+    const crease_cloud sorted = {.count = count, .points = (double *)(uintptr_t)points};
+    const crease_status status = crease_neighbours_find(context, &sorted, k, neighbours);
+    return status == CREASE_OK ? crease_noise_estimate_from(context, points, *neighbours, noise)
+                               : status;
+}
+
 static crease_status find(crease_context *context, crease_regions *regions,
-    const crease_cloud *cloud, const crease_regions_options *options)
+    const crease_regions_options *options, crease_surroundings_find *surroundings, void *user)
 {
     const int k =
         regions->count < CREASE_NOISE_NEIGHBOURS ? (int)regions->count : CREASE_NOISE_NEIGHBOURS;
-    crease_status status = sort_points(context, regions, cloud);
-    if (status != CREASE_OK)
-        return status;
-    const crease_cloud sorted = {.count = regions->count, .points = regions->points};
-    status = crease_neighbours_find(context, &sorted, k, &regions->neighbours);
-    if (status == CREASE_OK)
-        status = crease_noise_estimate_from(
-            context, regions->points, regions->neighbours, &regions->noise);
+    crease_status status = surroundings(
+        context, user, regions->points, regions->count, k, &regions->neighbours, &regions->noise);
     if (status == CREASE_OK)
         status = find_rounded(context, regions);
     if (status != CREASE_OK)
@@ -454,6 +458,13 @@ static crease_status check(
 crease_status crease_regions_find(crease_context *context, const crease_cloud *cloud,
     const crease_regions_options *options, crease_regions **out)
 {
+    return crease_regions_find_by(context, cloud, options, find_surroundings, NULL, out);
+}
+
+crease_status crease_regions_find_by(crease_context *context, const crease_cloud *cloud,
+    const crease_regions_options *options, crease_surroundings_find *surroundings, void *user,
+    crease_regions **out)
+{
     *out = NULL;
     const crease_regions_options chosen = options ? *options : crease_regions_options_default();
     crease_status status = check(context, crease_cloud_count(cloud), &chosen);
@@ -463,7 +474,9 @@ crease_status crease_regions_find(crease_context *context, const crease_cloud *c
     if (!regions)
         return CREASE_ERROR_NO_MEMORY;
     regions->count = crease_cloud_count(cloud);
-    status = find(context, regions, cloud, &chosen);
+    status = sort_points(context, regions, cloud);
+    if (status == CREASE_OK)
+        status = find(context, regions, &chosen, surroundings, user);
     if (status == CREASE_OK)
         *out = regions;
     else

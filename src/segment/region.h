@@ -39,4 +39,14 @@ struct crease_regions {
     crease_snaps snaps;
 };
 
+/* Finds the neighbours, k of each, and the noise of points in Morton order. */
+typedef crease_status crease_surroundings_find(crease_context *context, void *user,
+    const double *points, size_t count, int k, crease_neighbours **neighbours,
+    crease_noise **noise);
+
+/* crease_regions_find() with another way to find these. */
+crease_status crease_regions_find_by(crease_context *context, const crease_cloud *cloud,
+    const crease_regions_options *options, crease_surroundings_find *surroundings, void *user,
+    crease_regions **out);
+
 #endif
