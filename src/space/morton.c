@@ -150,7 +150,7 @@ crease_status crease_morton_sort(
     const size_t grain = share > 16384 ? share : 16384;
     struct sorting sort = {
         .points = points, .count = count, .grain = grain, .keys = keys, .order = order};
-    sort.chunks = count / grain + 1;
+    sort.chunks = count / grain + (count % grain != 0); /* those of crease_parallel_for */
     sort.places = crease_allocate(context, sort.chunks * DIGITS, sizeof *sort.places);
     uint64_t *const spare_keys = crease_allocate(context, count, sizeof *keys);
     uint32_t *const spare_order = crease_allocate(context, count, sizeof *order);

@@ -12,7 +12,7 @@ export OMPI_MCA_btl=self,vader OMPI_MCA_orte_base_help_aggregate=0
 ranks() {
     local count=$1
     shift
-    printed=$(timeout 120 mpirun -n "$count" "$mpi" "$@" 2>&1 </dev/null)
+    printed=$(timeout 600 mpirun -n "$count" "$mpi" "$@" 2>&1 </dev/null)
     got=$?
 }
 

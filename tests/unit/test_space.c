@@ -422,6 +422,31 @@ static void given_a_sorted_cloud_then_keys_ascend_and_the_order_is_a_permutation
 }
 
 /* The corners of a cube, in the order in which the curve meets them. */
+/* As many points as fill the chunks of the sort to the last one. */
+static void given_a_whole_number_of_chunks_then_the_order_is_a_permutation(void **state)
+{
+    enum { COUNT = 2 * 16384 };
+    crease_context *context = given_context();
+    double *xyz = malloc(3 * COUNT * sizeof *xyz);
+    uint64_t *keys = malloc(COUNT * sizeof *keys);
+    uint32_t *order = malloc(COUNT * sizeof *order);
+    uint8_t *seen = calloc(COUNT, 1);
+    for (size_t i = 0; i < COUNT; i++)
+        for (int axis = 0; axis < 3; axis++)
+            xyz[3 * i + (size_t)axis] = draw(i, axis);
+    assert_int_equal(crease_morton_sort(context, xyz, COUNT, keys, order), CREASE_OK);
+    for (size_t i = 0; i < COUNT; i++) {
+        assert_true(i == 0 || keys[i - 1] <= keys[i]);
+        assert_true(order[i] < COUNT && !seen[order[i]]);
+        seen[order[i]] = 1;
+    }
+    free(xyz);
+    free(keys);
+    free(order);
+    free(seen);
+    crease_context_free(context);
+}
+
 static void given_the_corners_of_a_cube_then_the_curve_goes_z_first(void **state)
 {
     crease_context *context = given_context();
@@ -453,6 +478,7 @@ int main(void)
         cmocka_unit_test(given_any_number_of_threads_then_neighbours_are_the_same_bytes),
         cmocka_unit_test(given_a_failing_allocation_then_no_memory_and_no_leak),
         cmocka_unit_test(given_a_sorted_cloud_then_keys_ascend_and_the_order_is_a_permutation),
+        cmocka_unit_test(given_a_whole_number_of_chunks_then_the_order_is_a_permutation),
         cmocka_unit_test(given_the_corners_of_a_cube_then_the_curve_goes_z_first),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
