@@ -133,6 +133,8 @@ static crease_status lead(const command *c, crease_context *context, const setti
 {
     crease_status status = engine_begin(context, s->threads);
     if (status == CREASE_OK)
+        status = crease_context_keep(context, s->resume);
+    if (status == CREASE_OK)
         status = run(c, context, s);
     else
         fprintf(stderr, "crease: %s\n", crease_context_message(context));

@@ -118,6 +118,11 @@ const option option_table[] = {
     {"skip-invalid", 0, OPTION_FLAG, NULL,
         FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_FILTER | FOR_INFO, AT(read.skip_invalid), 0, 0,
         NULL, "leave out points that are not finite numbers instead of stopping", NULL},
+    {"resume", 0, OPTION_PATH, "FOLDER", FOR_DETECT | FOR_FIT, AT(resume), 0, 0, NULL,
+        "keep what the long stages find in this folder, and begin with what is there: work that "
+        "was "
+        "broken off goes on after its last finished stage, with the same result",
+        "nothing is kept"},
     {"seed", 's', OPTION_SEED, "N", FOR_DETECT | FOR_FIT | FOR_EXAMPLE | FOR_REPRODUCE, AT(seed), 0,
         0, NULL, "seed of every random draw", NULL},
     {"threads", 't', OPTION_INTEGER, "N", FOR_ALL, AT(threads), 0, 1024, NULL,

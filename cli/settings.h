@@ -35,6 +35,7 @@ typedef struct settings {
     const char *creases;
     const char *points;
     const char *report;
+    const char *resume;
     /* how it runs */
     int threads;
     uint64_t seed;

@@ -111,6 +111,13 @@ CREASE_API crease_status crease_context_fail(
 /** The number of threads in force (never 0). */
 CREASE_API int crease_context_threads(const crease_context *context);
 CREASE_API uint64_t crease_context_seed(const crease_context *context);
+/** Lets the stages that take long keep what they found in a folder, which is made when it is not
+ * there, and begin with what they find in it: work that was broken off goes on after the last
+ * finished stage, with the same result. Scores and regions do so; a file that belongs to other
+ * points, options or another version is not used. A warning tells of each stage that is taken from
+ * there. The name must outlive the context; NULL: nothing is kept, as at first. Errors:
+ * CANNOT_WRITE. */
+CREASE_API crease_status crease_context_keep(crease_context *context, const char *folder);
 
 /* ------------------------------------------------------------------------------------- cloud -- */
 

@@ -12,6 +12,7 @@
 struct crease_context {
     crease_context_options options; /* threads resolved to a positive number */
     char message[512];
+    const char *kept;        /* folder for what finished stages found (see store.h), or NULL */
     const char *stage;       /* what the progress callback is told */
     atomic_bool cancelled;   /* set once the caller asked to stop */
     atomic_long allocations; /* allocations left before one fails on purpose; negative: no limit */

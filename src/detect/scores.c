@@ -5,9 +5,11 @@
 #include "detect/scores.h"
 
 #include "base/memory.h"
+#include "base/store.h"
 #include "detect/scoring.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 crease_detect_options crease_detect_options_default(void)
 {
@@ -33,6 +35,45 @@ crease_status crease_scores_create(crease_context *context, size_t count, crease
     return CREASE_OK;
 }
 
+static uint64_t key_of(const crease_context *context, const double *points, size_t count,
+    const crease_detect_options *options)
+{
+    const uint64_t numbers[] = {context->options.seed, (uint64_t)options->neighbours,
+        (uint64_t)options->resamples, (uint64_t)options->detector};
+    uint64_t key = crease_store_key(0, crease_version(), strlen(crease_version()));
+    key = crease_store_key(key, numbers, sizeof numbers);
+    key =
+        crease_store_key(key, &options->false_discovery_rate, sizeof options->false_discovery_rate);
+    return crease_store_key(key, points, 3 * count * sizeof *points);
+}
+
+static void list_arrays(const crease_scores *scores, crease_stored arrays[3])
+{
+    arrays[0] = (crease_stored){scores->variance, scores->count * sizeof *scores->variance};
+    arrays[1] = (crease_stored){scores->normals, 3 * scores->count * sizeof *scores->normals};
+    arrays[2] = (crease_stored){scores->features, scores->count};
+}
+
+bool crease_scores_load(crease_context *context, const double *points,
+    const crease_detect_options *options, crease_scores *scores)
+{
+    crease_stored arrays[3];
+    list_arrays(scores, arrays);
+    return context->kept &&
+        crease_store_load(
+            context, "scores", key_of(context, points, scores->count, options), arrays, 3);
+}
+
+void crease_scores_save(crease_context *context, const double *points,
+    const crease_detect_options *options, const crease_scores *scores)
+{
+    crease_stored arrays[3];
+    list_arrays(scores, arrays);
+    if (context->kept)
+        crease_store_save(
+            context, "scores", key_of(context, points, scores->count, options), arrays, 3);
+}
+
 static crease_status compute(
     crease_context *context, const crease_scoring *scoring, uint8_t *features)
 {
@@ -49,6 +90,24 @@ static crease_status compute(
         : status;
 }
 
+static crease_status score(crease_context *context, const crease_piece *whole,
+    const crease_detect_options *options, crease_scores *scores)
+{
+    crease_tree *tree = NULL;
+    crease_stage(context, "neighbours");
+    crease_status status = crease_tree_create(context, whole->points, whole->count, &tree);
+    if (status == CREASE_OK) {
+        const crease_scoring scoring = {.tree = tree,
+            .piece = *whole,
+            .options = *options,
+            .variance = scores->variance,
+            .normals = scores->normals};
+        status = compute(context, &scoring, scores->features);
+    }
+    crease_tree_free(tree);
+    return status;
+}
+
 crease_status crease_scores_compute(crease_context *context, const crease_cloud *cloud,
     const crease_detect_options *options, crease_scores **out)
 {
@@ -56,24 +115,15 @@ crease_status crease_scores_compute(crease_context *context, const crease_cloud 
     const crease_detect_options chosen = options ? *options : crease_detect_options_default();
     const crease_piece whole = {
         .count = crease_cloud_count(cloud), .points = crease_cloud_points(cloud)};
-    crease_tree *tree = NULL;
     crease_scores *scores = NULL;
     crease_status status = crease_scoring_check(context, whole.count, &chosen);
-    if (status != CREASE_OK)
-        return status;
-    crease_stage(context, "neighbours");
-    status = crease_tree_create(context, whole.points, whole.count, &tree);
     if (status == CREASE_OK)
         status = crease_scores_create(context, whole.count, &scores);
-    if (status == CREASE_OK) {
-        const crease_scoring scoring = {.tree = tree,
-            .piece = whole,
-            .options = chosen,
-            .variance = scores->variance,
-            .normals = scores->normals};
-        status = compute(context, &scoring, scores->features);
+    if (status == CREASE_OK && !crease_scores_load(context, whole.points, &chosen, scores)) {
+        status = score(context, &whole, &chosen, scores);
+        if (status == CREASE_OK)
+            crease_scores_save(context, whole.points, &chosen, scores);
     }
-    crease_tree_free(tree);
     if (status == CREASE_OK)
         *out = scores;
     else

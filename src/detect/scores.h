@@ -17,6 +17,13 @@ struct crease_scores {
 /* Makes room for the scores of so many points, all 0. */
 crease_status crease_scores_create(crease_context *context, size_t count, crease_scores **out);
 
+/* Takes the scores of these points from the context's folder; false when they are not there. */
+bool crease_scores_load(crease_context *context, const double *points,
+    const crease_detect_options *options, crease_scores *scores);
+/* Keeps them there. */
+void crease_scores_save(crease_context *context, const double *points,
+    const crease_detect_options *options, const crease_scores *scores);
+
 /* Room for the normals of the resamples of one neighbourhood. */
 typedef struct crease_resamples {
     size_t room;       /* B */

@@ -3,21 +3,8 @@
 
 /* Neighbours and noise are shared out; the regions themselves grow over the whole cloud, on rank 0.
  */
-#include "base/memory.h"
 #include "mpi/stages.h"
 #include "segment/region.h"
-
-static crease_status allocate(crease_context *context, size_t count, int k,
-    crease_neighbours **neighbours, crease_noise **noise)
-{
-    crease_neighbours *const made = crease_allocate(context, 1, sizeof *made);
-    *neighbours = made;
-    if (!made)
-        return CREASE_ERROR_NO_MEMORY;
-    *made = (crease_neighbours){.count = count, .k = k};
-    made->indices = crease_allocate(context, count, (size_t)k * sizeof *made->indices);
-    return made->indices ? crease_noise_create(context, count, noise) : CREASE_ERROR_NO_MEMORY;
-}
 
 /* What has been made is freed with the regions, also after a failure. */
 static crease_status find_surroundings(crease_context *context, void *user, const double *points,
@@ -25,7 +12,9 @@ static crease_status find_surroundings(crease_context *context, void *user, cons
 {
     crease_mpi *const mpi = user;
     crease_mpi_request request = {.stage = CREASE_MPI_SURROUNDINGS, .count = count, .k = k};
-    crease_status status = allocate(context, count, k, neighbours, noise);
+    crease_status status = crease_neighbours_create(context, count, k, neighbours);
+    if (status == CREASE_OK)
+        status = crease_noise_create(context, count, noise);
     if (status == CREASE_OK)
         status = crease_mpi_tell(mpi, &request, sizeof request);
     const crease_mpi_cloud cloud = {.count = count, .points = points};

@@ -110,32 +110,43 @@ static crease_status lead(crease_mpi *mpi, const crease_mpi_cloud *cloud,
     return status == CREASE_OK ? crease_mpi_scores_stage(mpi, cloud, options, scores) : status;
 }
 
+/* The points in Morton order, then the stage. */
+static crease_status compute(crease_mpi *mpi, const double *points,
+    const crease_detect_options *options, crease_scores *scores)
+{
+    crease_context *const context = mpi->context;
+    const size_t count = scores->count;
+    crease_stage(context, "neighbours");
+    uint64_t *const keys = crease_allocate(context, count, sizeof *keys);
+    uint32_t *const order = crease_allocate(context, count, sizeof *order);
+    crease_status status = keys && order ? crease_morton_sort(context, points, count, keys, order)
+                                         : CREASE_ERROR_NO_MEMORY;
+    free(keys);
+    const crease_mpi_cloud cloud = {.count = count, .points = points, .order = order};
+    if (status == CREASE_OK)
+        status = lead(mpi, &cloud, options, scores);
+    free(order);
+    return status;
+}
+
 crease_status crease_mpi_scores_compute(crease_mpi *mpi, const crease_cloud *cloud,
     const crease_detect_options *options, crease_scores **out)
 {
     *out = NULL;
     crease_context *const context = mpi->context;
     const crease_detect_options chosen = options ? *options : crease_detect_options_default();
-    const size_t count = crease_cloud_count(cloud);
+    const double *const points = crease_cloud_points(cloud);
     crease_scores *scores = NULL;
-    crease_status status = crease_mpi_check(mpi, count);
+    crease_status status = crease_mpi_check(mpi, crease_cloud_count(cloud));
     if (status == CREASE_OK)
-        status = crease_scoring_check(context, count, &chosen);
-    if (status != CREASE_OK)
-        return status;
-    crease_stage(context, "neighbours");
-    uint64_t *const keys = crease_allocate(context, count, sizeof *keys);
-    uint32_t *const order = crease_allocate(context, count, sizeof *order);
-    status = keys && order ? crease_scores_create(context, count, &scores) : CREASE_ERROR_NO_MEMORY;
+        status = crease_scoring_check(context, crease_cloud_count(cloud), &chosen);
     if (status == CREASE_OK)
-        status = crease_morton_sort(context, crease_cloud_points(cloud), count, keys, order);
-    free(keys);
-    if (status == CREASE_OK)
-        status = lead(mpi,
-            &(crease_mpi_cloud){
-                .count = count, .points = crease_cloud_points(cloud), .order = order},
-            &chosen, scores);
-    free(order);
+        status = crease_scores_create(context, crease_cloud_count(cloud), &scores);
+    if (status == CREASE_OK && !crease_scores_load(context, points, &chosen, scores)) {
+        status = compute(mpi, points, &chosen, scores);
+        if (status == CREASE_OK)
+            crease_scores_save(context, points, &chosen, scores);
+    }
     if (status == CREASE_OK)
         *out = scores;
     else

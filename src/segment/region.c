@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "base/select.h"
+#include "base/store.h"
 #include "cloud/blur.h"
 #include "cloud/cloud.h"
 #include "segment/excerpt.h"
@@ -423,13 +424,70 @@ static crease_status find_surroundings(crease_context *context, void *user, cons
                                : status;
 }
 
+static void list_arrays(const crease_regions *regions, double numbers[3], crease_stored arrays[5])
+{
+    const crease_noise *const noise = regions->noise;
+    const size_t count = regions->count, k = (size_t)regions->neighbours->k;
+    arrays[0] = (crease_stored){regions->neighbours->indices, count * k * sizeof(uint32_t)};
+    arrays[1] = (crease_stored){noise->normals, 3 * count * sizeof *noise->normals};
+    arrays[2] = (crease_stored){noise->scores, count * sizeof *noise->scores};
+    arrays[3] = (crease_stored){noise->local_spacing, count * sizeof *noise->local_spacing};
+    arrays[4] = (crease_stored){numbers, 3 * sizeof *numbers};
+}
+
+static uint64_t key_of(const crease_regions *regions)
+{
+    const uint64_t key = crease_store_key(0, crease_version(), strlen(crease_version()));
+    return crease_store_key(key, regions->points, 3 * regions->count * sizeof *regions->points);
+}
+
+/* What is known of the surroundings already. *known: false when it is nothing. */
+static crease_status load(crease_context *context, crease_regions *regions, int k, bool *known)
+{
+    crease_stored arrays[5];
+    double numbers[3];
+    crease_status status =
+        crease_neighbours_create(context, regions->count, k, &regions->neighbours);
+    if (status == CREASE_OK)
+        status = crease_noise_create(context, regions->count, &regions->noise);
+    if (status != CREASE_OK)
+        return status;
+    list_arrays(regions, numbers, arrays);
+    *known = crease_store_load(context, "surroundings", key_of(regions), arrays, 5);
+    if (*known) {
+        regions->noise->spacing = numbers[0];
+        regions->noise->sigma = numbers[1];
+        regions->noise->alike = numbers[2];
+        return CREASE_OK;
+    }
+    crease_neighbours_free(regions->neighbours);
+    crease_noise_free(regions->noise);
+    regions->neighbours = NULL;
+    regions->noise = NULL;
+    return CREASE_OK;
+}
+
+static void save(crease_context *context, const crease_regions *regions)
+{
+    crease_stored arrays[5];
+    double numbers[3] = {regions->noise->spacing, regions->noise->sigma, regions->noise->alike};
+    list_arrays(regions, numbers, arrays);
+    crease_store_save(context, "surroundings", key_of(regions), arrays, 5);
+}
+
 static crease_status find(crease_context *context, crease_regions *regions,
     const crease_regions_options *options, crease_surroundings_find *surroundings, void *user)
 {
     const int k =
         regions->count < CREASE_NOISE_NEIGHBOURS ? (int)regions->count : CREASE_NOISE_NEIGHBOURS;
-    crease_status status = surroundings(
-        context, user, regions->points, regions->count, k, &regions->neighbours, &regions->noise);
+    bool known = false;
+    crease_status status = context->kept ? load(context, regions, k, &known) : CREASE_OK;
+    if (status == CREASE_OK && !known) {
+        status = surroundings(context, user, regions->points, regions->count, k,
+            &regions->neighbours, &regions->noise);
+        if (status == CREASE_OK && context->kept)
+            save(context, regions);
+    }
     if (status == CREASE_OK)
         status = find_rounded(context, regions);
     if (status != CREASE_OK)

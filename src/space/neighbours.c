@@ -37,6 +37,23 @@ static void fill(void *user, size_t begin, size_t end, int worker)
     }
 }
 
+crease_status crease_neighbours_create(
+    crease_context *context, size_t count, int k, crease_neighbours **out)
+{
+    crease_neighbours *const neighbours = crease_allocate(context, 1, sizeof *neighbours);
+    *out = NULL;
+    if (!neighbours)
+        return CREASE_ERROR_NO_MEMORY;
+    *neighbours = (crease_neighbours){.count = count, .k = k};
+    neighbours->indices = crease_allocate(context, count, (size_t)k * sizeof(uint32_t));
+    if (!neighbours->indices) {
+        crease_neighbours_free(neighbours);
+        return CREASE_ERROR_NO_MEMORY;
+    }
+    *out = neighbours;
+    return CREASE_OK;
+}
+
 static crease_status check(crease_context *context, size_t count, int k)
 {
     if (k < 1 || k > CREASE_MOST_NEIGHBOURS)
@@ -62,19 +79,12 @@ crease_status crease_neighbours_find(
         return status;
     crease_stage(context, "neighbours");
     status = crease_tree_create(context, crease_cloud_points(cloud), count, &tree);
-    if (status != CREASE_OK)
-        goto done;
-    status = CREASE_ERROR_NO_MEMORY;
-    neighbours = crease_allocate(context, 1, sizeof *neighbours);
-    if (!neighbours)
-        goto done;
-    *neighbours = (crease_neighbours){.count = count, .k = k};
-    neighbours->indices = crease_allocate(context, count, (size_t)k * sizeof(uint32_t));
-    if (!neighbours->indices)
-        goto done;
-    struct filling filling = {tree, neighbours};
-    status = crease_parallel_for(context, tree->leaf_count, LEAF_GRAIN, fill, &filling);
-done:
+    if (status == CREASE_OK)
+        status = crease_neighbours_create(context, count, k, &neighbours);
+    if (status == CREASE_OK) {
+        struct filling filling = {tree, neighbours};
+        status = crease_parallel_for(context, tree->leaf_count, LEAF_GRAIN, fill, &filling);
+    }
     crease_tree_free(tree);
     if (status == CREASE_OK)
         *out = neighbours;

@@ -13,4 +13,8 @@ struct crease_neighbours {
     uint32_t *indices; /* count x k */
 };
 
+/* Makes room for k neighbours of so many points. */
+crease_status crease_neighbours_create(
+    crease_context *context, size_t count, int k, crease_neighbours **out);
+
 #endif

@@ -15,7 +15,7 @@ works() {
     [ "$(cat "/proc/$1/comm" 2>/dev/null)" = crease-mpi ] && [ $((0x${caught:-0} >> 14 & 1)) = 1 ]
 }
 
-# kill_rank N JOB: waits until all three ranks of this mpirun are at work, and kills one.
+# kill_rank N JOB SECONDS: waits until all three ranks of this mpirun are at work, and kills one.
 kill_rank() {
     local tries child victim count
     for tries in $(seq 400); do
@@ -25,7 +25,7 @@ kill_rank() {
             [ "$(rank_of "$child")" = "$1" ] && victim=$child
         done
         if [ $count = 3 ]; then
-            sleep 0.7
+            sleep "$3"
             kill -KILL "$victim"
             return
         fi
@@ -41,7 +41,7 @@ for rank in 1 0; do
     echo old >edge.ply
     mpirun -n 3 "$mpi" detect bracket.ply -o edge.ply -o new.ply -B 500 -t 1 >log 2>&1 &
     job=$!
-    kill_rank $rank $job
+    kill_rank $rank $job 0.7
     wait $job
     got=$?
     [ $got != 0 ] || fail "rank $rank was killed, and the job ended with 0: $(cat log)"
@@ -49,4 +49,20 @@ for rank in 1 0; do
     [ -z "$(ls -A | grep -vx -e bracket.ply -e edge.ply -e log)" ] || fail "rank $rank left $(ls -A)"
     [ $rank = 0 ] || check "the sentence tells what to do" grep -q "another rank has died" log
 done
+
+# A rank dies after the scores: the next run goes on from there, with another number of ranks.
+expect 0 "" example bracket --count 60000 -o bracket.ply
+expect 0 "" detect bracket.ply -o one.ply -B 20 -q
+checks=$((checks + 2))
+mpirun -n 3 "$mpi" detect bracket.ply -o many.ply -B 20 -t 1 --resume kept >log 2>&1 &
+job=$!
+for tries in $(seq 1000); do
+    [ -e kept/scores.stage ] && break
+    sleep 0.02
+done
+kill_rank 2 $job 0
+wait $job && fail "rank 2 was killed, and the job ended with 0: $(cat log)"
+[ ! -e many.ply ] || fail "rank 2 was killed, and there is a result"
+expect_ranks 2 0 "scores: taken from kept/scores.stage" detect bracket.ply -o many.ply -B 20 --resume kept
+same "the resumed run" one.ply many.ply
 finish

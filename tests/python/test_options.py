@@ -14,8 +14,9 @@ import crease
 from crease import _fit
 
 TABLE = (Path(__file__).parents[2] / "cli/option.c").read_text()
-#: What methods or other calls do here.
-ELSEWHERE = {"output", "creases", "points", "report", "skip_invalid", "json", "quiet", "help"}
+#: What methods or other calls do here, and what is for files larger than memory.
+ELSEWHERE = {"output", "creases", "points", "report", "skip_invalid", "json", "quiet", "help", "resume",
+             "memory", "scores_only"}
 
 
 def program_options(command):
