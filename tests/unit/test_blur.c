@@ -106,6 +106,55 @@ static void given_rounded_ridge_when_found_then_one_crease_where_it_was_sharp(vo
     crease_context_free(context);
 }
 
+/* The lesser of two numbers, the kink where they are equal rounded over that width. */
+static double round_least(double a, double b, double width)
+{
+    const double deep = fmax(width - fabs(a - b), 0);
+    return fmin(a, b) - deep * deep / (4 * width);
+}
+
+/* A block of spacing 1 with sloping sides on a floor, all its edges rounded over 6 spacings, in
+ * heights of whole numbers. */
+static struct faces given_rounded_block(void)
+{
+    struct faces faces = given_faces(1);
+    for (size_t i = 0; i < 90; i++)
+        for (size_t j = 0; j < 90; j++) {
+            const uint64_t n = (uint64_t)faces.count;
+            const double x = (double)i - 45 + 0.4 * crease_random_uniform(9, 1, n);
+            const double y = (double)j - 45 + 0.4 * crease_random_uniform(9, 2, n);
+            const double side = 1.2 * round_least(36 - fabs(x), 36 - fabs(y), 6);
+            const double top = round_least(side, 17, 3.6);
+            const double error = 0.3 * crease_random_normal(9, 3, 90 * i + j / 8);
+            add_point(&faces, x, y, -round_least(-top, 0, 3.6) + error);
+        }
+    round_heights(&faces, 1);
+    return faces;
+}
+
+static void given_rounded_block_when_found_then_twelve_edges_and_eight_corners(void **state)
+{
+    crease_context *context = given_context();
+    struct faces faces = given_rounded_block();
+    crease_regions *regions = NULL;
+    crease_network *network = network_of(context, &faces, &regions);
+    assert_int_equal(crease_regions_count(regions), 6);
+    assert_int_equal(crease_network_count(network), 12);
+    assert_int_equal(crease_network_corner_count(network), 8);
+    for (size_t i = 0; i < 8; i++) {
+        const crease_corner corner = crease_network_corner(network, i);
+        const bool above = corner.position[2] > 8;
+        assert_int_equal(corner.valence, 3);
+        assert_near(corner.position[2], above ? 17 : 0, 1);
+        for (int c = 0; c < 2; c++)
+            assert_near(fabs(corner.position[c]), above ? 36 - 17 / 1.2 : 36, 1.5);
+    }
+    crease_network_free(network);
+    crease_regions_free(regions);
+    free_faces(&faces);
+    crease_context_free(context);
+}
+
 static void given_fillet_wider_than_any_blur_when_found_then_it_stays_round(void **state)
 {
     crease_context *context = given_context();
@@ -126,6 +175,7 @@ int main(void)
         cmocka_unit_test(
             given_sharp_ridge_or_independent_errors_or_a_plain_then_nothing_is_blurred),
         cmocka_unit_test(given_rounded_ridge_when_found_then_one_crease_where_it_was_sharp),
+        cmocka_unit_test(given_rounded_block_when_found_then_twelve_edges_and_eight_corners),
         cmocka_unit_test(given_fillet_wider_than_any_blur_when_found_then_it_stays_round),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
