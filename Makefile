@@ -3,7 +3,7 @@
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 
-.PHONY: build demo test bench-rivals install uninstall dist deb sbom clean
+.PHONY: build demo test bench-rivals bench-fits install uninstall dist deb sbom clean
 
 build:
 	@tools/install-dependencies build
@@ -24,6 +24,11 @@ bench-rivals:
 	@cmake -S . -B build-bench -DCREASE_BENCH=ON -DCREASE_TESTS=OFF >/dev/null
 	@cmake --build build-bench -j $(JOBS) -- --no-print-directory
 	@bench/rivals build-bench --json build-bench/rivals.json --table build-bench/rivals.md
+
+bench-fits:
+	@cmake -S . -B build-bench -DCREASE_BENCH=ON -DCREASE_TESTS=OFF >/dev/null
+	@cmake --build build-bench -j $(JOBS) -- --no-print-directory
+	@bench/fits build-bench --table build-bench/fits.md
 
 install: build
 	@cmake --install build

@@ -23,6 +23,7 @@
 enum {
     SMALL = 20000,
     PIECE = 8192,
+    AHEAD = 16,
     STREAM_SIGNS = 0x516e,
     MOST = CREASE_HEIGHT_ORDER_MAX,
     MOST_PAIRS = MOST * (MOST + 1) / 2
@@ -39,6 +40,7 @@ typedef struct work {
     size_t pieces;   /* of cells that have more than one */
     size_t *piece;   /* cell and first place in the order of each */
     double *sums;    /* of each piece: product, right sides */
+    size_t used;     /* observations in the order */
     double *scratch; /* of each worker: a sum */
     size_t room;     /* numbers of a sum */
 } work;
@@ -96,13 +98,26 @@ static void add_observation(
         add_side(values, order, bits[0] >> s & 1 ? sqrt(weight) : -sqrt(weight), right);
 }
 
+/* Observations come in any order: those next in line are fetched while others are worked on. */
+static void prefetch(const crease_observations *o, size_t number)
+{
+    __builtin_prefetch(o->uv + 2 * number);
+    __builtin_prefetch(o->weight + number);
+    __builtin_prefetch(o->target + number * o->sides);
+    if (o->tilt)
+        __builtin_prefetch(o->tilt + number);
+}
+
 /* Sums up the observations of one cell, or of a piece of it. */
 static void sum_up(const work *w, size_t cell, size_t begin, size_t end, double *sum)
 {
     const size_t span[2] = {cell / w->spans[1], cell % w->spans[1]};
     memset(sum, 0, w->room * sizeof *sum);
-    for (size_t i = begin; i < end; i++)
+    for (size_t i = begin; i < end; i++) {
+        if (i + AHEAD < w->used)
+            prefetch(w->seen, w->order[i + AHEAD]);
         add_observation(w, w->order[i], span, sum);
+    }
 }
 
 static void sum_pieces(void *user, size_t begin, size_t end, int worker)
@@ -198,6 +213,7 @@ static void sort_by_cell(work *w)
     for (size_t c = 0; c < cells; c++)
         w->begin[c] = w->begin[c + 1];
     w->begin[cells] = total;
+    w->used = total;
 }
 
 /* Cuts the cells with many observations into pieces and sums these up. */

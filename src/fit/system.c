@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STREAM_PROBES = 0xf17, FEW_UNKNOWNS = 128, PROBES = 8, PROBES_OF_MANY = 2 };
+enum { STREAM_PROBES = 0xf17, FEW_UNKNOWNS = 128, PROBES = 8, PROBES_OF_MANY = 1 };
 
 /* Products that a banded factorisation may take; with more of them iterations are faster. */
 static const double BANDED = 4e8;
@@ -21,7 +21,7 @@ static const double BANDED = 4e8;
 static const double LEAST_HOLD = 1e-13, LEAST_HOLD_ITERATED = 1e-8;
 /* Errors of iterated solutions, see crease_multigrid_solve(); that of a trace is chance's anyway.
  */
-static const double TOLERANCE = 3e-4, TOLERANCE_OF_TRACE = 1e-2;
+static const double TOLERANCE = 1e-3, TOLERANCE_OF_TRACE = 3e-2;
 
 /* Random signs, for an estimated trace; set once. */
 static void set_signs(crease_system *system)
