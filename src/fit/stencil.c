@@ -123,7 +123,8 @@ static void add_rows(const product *p, size_t i, size_t di, double *y)
     const crease_stencil *const s = p->stencil;
     const size_t degree = s->order - 1, n = s->count[1];
     const bool after = i + di < s->count[0], before = di <= i;
-    const double *const next = p->x + (i + di) * n, *const last = p->x + (i - di) * n;
+    const double *const next = after ? p->x + (i + di) * n : NULL;
+    const double *const last = before ? p->x + (i - di) * n : NULL;
     for (size_t b = di ? 0 : degree; b <= 2 * degree; b++) {
         const size_t k = (2 * degree + 1) * di + b - degree;
         const size_t right = b > degree ? b - degree : 0, left = b < degree ? degree - b : 0;
