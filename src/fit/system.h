@@ -56,7 +56,8 @@ void crease_system_clear(crease_system *system);
 crease_status crease_system_factor(
     crease_context *context, crease_system *system, double lambda, bool *solvable);
 /* Solves for all right sides: sides x size. solutions: zeros, or what they are believed to be
- * about. Iterated ones are within 1e-6 of the least sum of squares. Errors: CANCELLED. */
+ * about. Iterated ones are within about 1e-6 of the least sum of
+ * squares, penalties included. Errors: CANCELLED. */
 crease_status crease_system_solve(
     crease_context *context, crease_system *system, double *solutions);
 /* The same for `count` other right sides of `size` numbers each. */

@@ -281,7 +281,8 @@ static void given_noisy_data_then_iterations_reach_the_least_sum_of_squares(void
     }
     const double found = rms(&iterated.height, &d);
     memcpy(iterated.height.coefficients, x, s->size * sizeof *x);
-    assert_near(found, rms(&iterated.height, &d), 1e-5 * found);
+    /* iterations stop by the penalised sum, of which this is the larger part */
+    assert_near(found, rms(&iterated.height, &d), 1e-4 * found);
     crease_stencil_free(&whole);
     free(band);
     free(x);
