@@ -43,7 +43,8 @@ const option option_table[] = {
         "B-spline surface",
         NULL},
     {"no-snap", 0, OPTION_FLAG, NULL, FOR_FIT, AT(no_snap), 0, 0, NULL,
-        "part, shell: leave surfaces that are parallel, perpendicular, coaxial or equally large within "
+        "part, shell: leave surfaces that are parallel, perpendicular, coaxial or equally large "
+        "within "
         "their errors as the points have them",
         NULL},
     {"sigma", 0, OPTION_REAL, "S", FOR_DETECT | FOR_FIT | FOR_FILTER, AT(sigma), 0, 1e150, NULL,

@@ -33,7 +33,7 @@ static const double deviate = -0.5244; /* that quantile of a normal distribution
 static const double growing = 1.3;     /* least ratio of the variances of the first two sizes */
 static const double lasting = 3.0;  /* most added by twice the size, over what was added so far */
 static const double at_once = 8.0;  /* more than the eightfold comes of no smooth surface ... */
-static const double roughest = 0.7; /* ... and a greater deviation, in spacings, of no noise */
+static const double roughest = 0.4; /* ... and a greater deviation, in spacings, of no noise */
 static const double widest = 0.25;  /* of all points in one window */
 
 typedef struct survey {

@@ -145,13 +145,70 @@ bool crease_body_turn(crease_body *body, const double axis[3])
     return true;
 }
 
-crease_model crease_body_model(const crease_body *body)
+/* The turn from one axis to another near to it, as frames: out takes rows of `from` to those of
+ * `to`. */
+static void carried_frame(const crease_model *from, const double axis[3], double out[9])
 {
-    crease_model out = body->model;
-    double *entry = out.covariance;
-    for (int r = 0; r < N; r++)
-        for (int c = 0; c <= r; c++)
-            *entry++ =
-                r == c ? fmax(body->covariance[N * r + c], 0.0) : body->covariance[N * r + c];
-    return out;
+    crease_model turned = *from;
+    double step[N] = {0};
+    crease_vector_cross(from->axes + 6, axis, step + 3);
+    const double sine = crease_vector_length(step + 3);
+    for (int c = 0; c < 3 && sine > 0.0; c++)
+        step[3 + c] *= asin(fmin(sine, 1.0)) / sine;
+    crease_primitive_change(&turned, turned.pivot, step);
+    memcpy(out, turned.axes, 9 * sizeof *out);
+}
+
+/* A vector of the old frame in the new one. */
+static void carry(const double old[9], const double new[9], const double v[3], double out[3])
+{
+    out[0] = out[1] = out[2] = 0.0;
+    for (size_t row = 0; row < 3; row++) {
+        const double along = crease_vector_dot(old + 3 * row, v);
+        for (size_t c = 0; c < 3; c++)
+            out[c] += along * new[3 * row + c];
+    }
+}
+
+/* The covariance as the model has it, carried along with its surface, motions of the surface in
+ * itself included. */
+static void carry_covariance(crease_model *model, const double old[9], const double new[9])
+{
+    double full[N * N], turn[N * N] = {0}, half[N * N] = {0};
+    crease_model_full_covariance(model, full);
+    turn[6 * N + 6] = turn[7 * N + 7] = 1.0;
+    for (size_t c = 0; c < 3; c++) {
+        double unit[3] = {0}, image[3];
+        unit[c] = 1.0;
+        carry(old, new, unit, image);
+        for (size_t r = 0; r < 3; r++)
+            turn[N * r + c] = turn[N * (r + 3) + c + 3] = image[r];
+    }
+    for (size_t r = 0; r < N; r++)
+        for (size_t c = 0; c < N; c++)
+            for (size_t k = 0; k < N; k++)
+                half[N * r + c] += turn[N * r + k] * full[N * k + c];
+    double *entry = model->covariance;
+    for (size_t r = 0; r < N; r++)
+        for (size_t c = 0; c <= r; c++, entry++) {
+            *entry = 0.0;
+            for (size_t k = 0; k < N; k++)
+                *entry += half[N * r + k] * turn[N * c + k];
+        }
+}
+
+void crease_body_replace(const crease_body *body, crease_model *model)
+{
+    double frame[9], arm[3], carried[3];
+    carried_frame(model, body->model.axes + 6, frame);
+    for (int c = 0; c < 3; c++)
+        arm[c] = model->pivot[c] - model->centre[c];
+    carry(model->axes, frame, arm, carried);
+    carry_covariance(model, model->axes, frame);
+    memcpy(model->centre, body->model.centre, sizeof model->centre);
+    memcpy(model->axes, body->model.axes, sizeof model->axes);
+    model->radius = body->model.radius;
+    model->shape = body->model.shape;
+    for (int c = 0; c < 3; c++)
+        model->pivot[c] = model->centre[c] + carried[c];
 }

@@ -39,7 +39,8 @@ bool crease_body_condition(
     crease_body *body, const crease_functions *functions, const double values[2]);
 /* Turns the axis into a unit vector near to it, or near to its opposite. */
 bool crease_body_turn(crease_body *body, const double axis[3]);
-/* The model with the covariance that is left. */
-crease_model crease_body_model(const crease_body *body);
+/* Gives the model that the body was made of the body's surface. Its covariance remains that of the
+ * fit, carried along. */
+void crease_body_replace(const crease_body *body, crease_model *model);
 
 #endif

@@ -99,32 +99,11 @@ static void measure_again(crease_regions *regions)
         regions->rms[r] = sqrt(regions->rms[r] / (double)regions->sizes[r]);
 }
 
-/* What is known of a direction after all its surfaces have spoken is known of each. */
-static void add_direction_errors(crease_snapping *all, size_t body)
-{
-    const int32_t own = all->directions.of[body];
-    if (own < 0 || !all->moved[body])
-        return;
-    const crease_cluster *const cluster = &all->directions.items[own];
-    const double *const frame = all->regions->models[cluster->leader].axes;
-    const double *const c = cluster->mean.covariance;
-    double *const covariance = all->bodies[body].covariance;
-    /* a tilt towards x is a turn about y, one towards y a turn about -x */
-    for (size_t i = 0; i < 3; i++)
-        for (size_t k = 0; k < 3; k++)
-            covariance[CREASE_PRIMITIVE_PARAMETERS * (3 + i) + 3 + k] +=
-                c[0] * frame[3 + i] * frame[3 + k] -
-                c[1] * (frame[i] * frame[3 + k] + frame[3 + i] * frame[k]) +
-                c[2] * frame[i] * frame[k];
-}
-
 static void take_models(crease_snapping *all)
 {
     for (size_t i = 0; i < all->count; i++)
-        add_direction_errors(all, i);
-    for (size_t i = 0; i < all->count; i++)
         if (all->moved[i])
-            all->regions->models[i] = crease_body_model(&all->bodies[i]);
+            crease_body_replace(&all->bodies[i], &all->regions->models[i]);
     for (size_t i = 0; i < all->count; i++)
         roll_again(all->regions, i, all->moved);
     measure_again(all->regions);

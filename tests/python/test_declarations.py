@@ -80,7 +80,8 @@ def test_enumerations_have_the_numbers_that_c_gives_them(tmp_path):
     constants = {}
     for name, enumeration in ENUMERATIONS.items():
         prefix = {"crease_status": "CREASE", "crease_region_type": "CREASE_REGION",
-                  "crease_part_state": "CREASE_PART"}.get(name, name.upper())
+                  "crease_part_state": "CREASE_PART",
+                  "crease_snap_kind": "CREASE_SNAP"}.get(name, name.upper())
         constants |= {f"{prefix}_{member.name}": member.value for member in enumeration}
     body = "".join(f'    printf("%d\\n", (int){constant});\n' for constant in constants)
     assert [int(number) for number in printed_by_c(tmp_path, body)] == list(constants.values())
