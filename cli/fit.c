@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* crease fit: chooses between a sheet and a part. */
+/* crease fit: chooses between a sheet, a shell and a part. */
 #include "fit.h"
 
 #include "command.h"
 #include "input.h"
+
+/* With fewer points there are no regions to speak of. */
+enum { LEAST_FOR_SHELL = 500 };
 
 static crease_status check(crease_context *context, const settings *s)
 {
@@ -17,38 +20,88 @@ static crease_status check(crease_context *context, const settings *s)
     return status == CREASE_OK ? target_check(context, s->report, TARGET_REPORT) : status;
 }
 
+/* What the choice of a method has come to. */
+typedef struct choice {
+    int method;
+    crease_sheet *sheet; /* a sheet that was fitted to find out, or NULL */
+    bool doubtful;       /* the sheet is taken if the method comes to nothing */
+} choice;
+
+#ifdef CREASE_HAVE_CAD
+/* A sheet if its lines carry the creases of the cloud, else a shell. */
+static crease_status sheet_or_shell(
+    crease_context *context, const settings *s, const crease_cloud *cloud, choice *out)
+{
+    crease_regions *regions = NULL;
+    crease_network *network = NULL;
+    bool carries = true;
+    crease_regions_options united = s->regions;
+    united.united = true;
+    crease_status status = crease_regions_find(context, cloud, &united, &regions);
+    if (status == CREASE_OK)
+        status = crease_network_find(context, regions, NULL, &network);
+    if (status == CREASE_OK)
+        status = crease_sheet_fit(context, cloud, &s->sheet, &out->sheet);
+    if (status == CREASE_OK)
+        status = crease_sheet_carries(context, out->sheet, regions, network, &carries);
+    out->method = carries ? METHOD_SHEET : METHOD_SHELL;
+    out->doubtful = !carries;
+    crease_network_free(network);
+    crease_regions_free(regions);
+    return status;
+}
+#endif
+
 /* A part unless a sheet can follow the cloud, or options are set that only sheets have. */
 static crease_status choose(
-    crease_context *context, const settings *s, const crease_cloud *cloud, int *method)
+    crease_context *context, const settings *s, const crease_cloud *cloud, choice *out)
 {
-    *method = s->method;
-    if (s->method != METHOD_AUTOMATIC)
-        return CREASE_OK;
     bool suits = true;
     crease_status status = CREASE_OK;
-    if (!s->net_given && !s->rotation_given)
+    out->method = s->method;
+    if (s->method != METHOD_AUTOMATIC)
+        return CREASE_OK;
+    const bool set = s->net_given || s->rotation_given;
+    if (!set)
         status = crease_sheet_suits(context, cloud, &suits);
-    *method = suits ? METHOD_SHEET : METHOD_PART;
+    out->method = suits ? METHOD_SHEET : METHOD_PART;
+#ifdef CREASE_HAVE_CAD
+    if (status == CREASE_OK && suits && !set && crease_cloud_count(cloud) >= LEAST_FOR_SHELL)
+        status = sheet_or_shell(context, s, cloud, out);
+#endif
+    return status;
+}
+
+static crease_status fit(crease_context *context, const settings *s, report *r,
+    const crease_cloud *cloud, choice *chosen)
+{
+    settings now = *s;
+    bool instead = false;
+    now.method = chosen->method;
+    if (now.method == METHOD_PART || now.method == METHOD_SHELL) {
+        const crease_status status =
+            fit_part(context, &now, r, cloud, chosen->doubtful ? &instead : NULL);
+        if (status != CREASE_OK || !instead)
+            return status;
+        now.method = METHOD_SHEET;
+    }
+    const crease_status status = fit_sheet(context, &now, r, cloud, chosen->sheet);
+    chosen->sheet = NULL;
     return status;
 }
 
 crease_status fit_run(crease_context *context, const settings *s, report *r)
 {
     crease_cloud *cloud = NULL;
-    int method = METHOD_AUTOMATIC;
+    choice chosen = {.method = METHOD_AUTOMATIC};
     crease_status status = check(context, s);
     if (status == CREASE_OK)
         status = input_read(context, s, r, &cloud);
     if (status == CREASE_OK)
-        status = choose(context, s, cloud, &method);
-    if (status == CREASE_OK) {
-        cJSON_AddStringToObject(r->root, "method", fit_method_names[method]);
-        settings chosen = *s;
-        chosen.method = method;
-        status = method == METHOD_PART || method == METHOD_SHELL
-            ? fit_part(context, &chosen, r, cloud)
-            : fit_sheet(context, &chosen, r, cloud);
-    }
+        status = choose(context, s, cloud, &chosen);
+    if (status == CREASE_OK)
+        status = fit(context, s, r, cloud, &chosen);
+    crease_sheet_free(chosen.sheet);
     crease_cloud_free(cloud);
     return status;
 }

@@ -14,11 +14,13 @@ enum {
     FIT_CREASES = TARGET_LINES | TARGET_CAD
 };
 
-/** Fits one sheet, by either of its methods, and writes what is asked for. */
-crease_status fit_sheet(
-    crease_context *context, const settings *s, report *r, const crease_cloud *cloud);
+/** Fits one sheet, by either of its methods, and writes what is asked for. ready: the sheet, if it
+ * has been fitted already, else NULL; it is taken over. */
+crease_status fit_sheet(crease_context *context, const settings *s, report *r,
+    const crease_cloud *cloud, crease_sheet *ready);
 /** Builds a part from its smooth regions and writes what is asked for. */
-crease_status fit_part(
-    crease_context *context, const settings *s, report *r, const crease_cloud *cloud);
+/** instead: NULL, or where to say that no shell came out of it: then nothing is written. */
+crease_status fit_part(crease_context *context, const settings *s, report *r,
+    const crease_cloud *cloud, bool *instead);
 
 #endif

@@ -10,6 +10,7 @@
 #include "deviation.h"
 #include "engine.h"
 #include "facts.h"
+#include "option.h"
 #include "outputs.h"
 #include "region.h"
 
@@ -116,7 +117,9 @@ static crease_status build(
     crease_part_options options = crease_part_options_default();
     options.bspline_faces = s->faces == FACES_BSPLINE;
     options.open = s->method == METHOD_SHELL;
-    crease_status status = engine_regions(context, cloud, &s->regions, &all->regions);
+    crease_regions_options splitting = s->regions;
+    splitting.united = options.open;
+    crease_status status = engine_regions(context, cloud, &splitting, &all->regions);
     if (status == CREASE_OK && !s->no_snap)
         status = crease_regions_snap(context, all->regions);
     if (status != CREASE_OK)
@@ -327,11 +330,14 @@ static crease_status write_outputs(
 }
 
 crease_status fit_part(
-    crease_context *context, const settings *s, report *r, const crease_cloud *cloud)
+    crease_context *context, const settings *s, report *r, const crease_cloud *cloud, bool *instead)
 {
     result all = {0};
     crease_status status = build(context, s, r, cloud, &all);
-    if (status == CREASE_OK) {
+    if (status == CREASE_OK && instead)
+        *instead = crease_part_state_of(all.part) != CREASE_PART_SHELL;
+    if (status == CREASE_OK && !(instead && *instead)) {
+        cJSON_AddStringToObject(r->root, "method", fit_method_names[s->method]);
         describe(r, s, &all);
         status = write_outputs(context, s, r, &all);
     }
@@ -340,9 +346,9 @@ crease_status fit_part(
 }
 #else
 crease_status fit_part(
-    crease_context *context, const settings *s, report *r, const crease_cloud *cloud)
+    crease_context *context, const settings *s, report *r, const crease_cloud *cloud, bool *instead)
 {
-    (void)r, (void)cloud;
+    (void)r, (void)cloud, (void)instead;
     return crease_context_fail(context, CREASE_ERROR_UNSUPPORTED,
         "%s: this build joins no faces to a part; build with OpenCASCADE (CREASE_CAD=ON), or fit "
         "a sheet (--method sheet)",

@@ -6,6 +6,7 @@
 
 #include "cad.h"
 #include "deviation.h"
+#include "option.h"
 #include "outputs.h"
 
 #include <math.h>
@@ -76,7 +77,7 @@ static crease_status make_clouds(crease_context *context, const crease_cloud *cl
 static crease_status make_result(
     crease_context *context, const settings *s, const crease_cloud *cloud, result *all)
 {
-    crease_status status = fit(context, s, cloud, &all->sheet);
+    crease_status status = all->sheet ? CREASE_OK : fit(context, s, cloud, &all->sheet);
     if (status == CREASE_OK)
         status = crease_sheet_faces(context, all->sheet, &all->faces, &all->face_count);
     if (status == CREASE_OK)
@@ -194,13 +195,14 @@ static crease_status write_outputs(
     return outputs_write(context, s, r, &made);
 }
 
-crease_status fit_sheet(
-    crease_context *context, const settings *s, report *r, const crease_cloud *cloud)
+crease_status fit_sheet(crease_context *context, const settings *s, report *r,
+    const crease_cloud *cloud, crease_sheet *ready)
 {
-    result all = {0};
+    result all = {.sheet = ready};
     crease_status status = make_result(context, s, cloud, &all);
     if (status == CREASE_OK) {
         report_stage(r, "fit");
+        cJSON_AddStringToObject(r->root, "method", fit_method_names[s->method]);
         describe(r, &all);
         status = write_outputs(context, s, r, &all);
     }

@@ -35,7 +35,9 @@ const option option_table[] = {
         "`part`: a face for every smooth region, closed to a solid where the points allow; "
         "`shell`: the same for points that end at a border, along which the faces end as well; "
         "`sheet`: one surface whose creases are knot lines; `averaging`: the paper's Algorithm 1; "
-        "`automatic`: a sheet where no surface lies over another, else a part",
+        "`automatic`: where no surface lies over another a sheet, or a shell if creases are not "
+        "where "
+        "a sheet can have them; else a part",
         NULL},
     {"faces", 0, OPTION_CHOICE, "KIND", FOR_FIT, AT(faces), 0, 0, face_names,
         "part, shell: planes, cylinders, cones, spheres and tori as what they are, or every face "

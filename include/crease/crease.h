@@ -437,6 +437,8 @@ typedef struct crease_region {
 typedef struct crease_regions_options {
     double sigma;        /**< noise along the normal, when it is known; default 0: estimated */
     size_t least_points; /**< no region has fewer points than this, 8 or more; default 8 */
+    bool united;         /**< regions that join without an angle become one free form where that is
+                              as close to the points; default false */
 } crease_regions_options;
 
 CREASE_API crease_regions_options crease_regions_options_default(void);

@@ -147,7 +147,7 @@ class DetectOptions(Structure):
 
 
 class RegionsOptions(Structure):
-    _fields_ = [("sigma", c_double), ("least_points", c_size_t)]
+    _fields_ = [("sigma", c_double), ("least_points", c_size_t), ("united", c_bool)]
 
 
 class Region(Structure):

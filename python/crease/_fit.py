@@ -14,7 +14,8 @@ from ._cloud import Cloud, Points, as_cloud
 from ._declarations import (AveragingOptions, DetectOptions, Orientation, PartOptions,
                             RegionsOptions, SheetOptions)
 from ._errors import UsageError
-from ._library import LIBRARY
+from ._library import HAS_CAD, LIBRARY
+from ._memory import Handle
 from ._options import choose, fill
 from ._part import Part, build_part
 from ._sheet import Sheet
@@ -25,6 +26,8 @@ _TURN = {"net", "orientation", "rotation"}
 _SHEET = _TURN | {"order", "most_creases", "smoothing", "tolerance"}
 _AVERAGING = _TURN | {"neighbours", "resamples", "averaging_neighbours", "passes",
                       "marking_neighbours", "mark_threshold", "row_threshold", "multiplicity"}
+#: With fewer points there are no regions to speak of.
+_LEAST_FOR_SHELL = 500
 _TAKES = {"automatic": _PART | _SHEET, "part": _PART, "shell": _PART,
           "sheet": _SHEET, "averaging": _AVERAGING}
 
@@ -66,7 +69,8 @@ def _averaging_options(given: dict[str, Any]) -> AveragingOptions:
 
 def _part_options(method: str, given: dict[str, Any]) -> tuple[RegionsOptions, PartOptions]:
     bspline = choose("faces", given.get("faces", "analytic"), {"analytic": False, "bspline": True})
-    splitting = fill(LIBRARY.crease_regions_options_default(), sigma=given.get("sigma"))
+    splitting = fill(LIBRARY.crease_regions_options_default(), sigma=given.get("sigma"),
+                     united=method == "shell")
     return splitting, PartOptions(bspline_faces=bspline, open=method == "shell")
 
 
@@ -77,6 +81,18 @@ def _chosen(work: Work, cloud: Cloud, given: dict[str, Any]) -> str:
     suits = c_bool(True)
     work.call("crease_sheet_suits", cloud._handle, byref(suits))
     return "sheet" if suits.value else "part"
+
+
+def _wants_shell(work: Work, cloud: Cloud, sheet: Handle, given: dict[str, Any]) -> bool:
+    """Whether the cloud has creases that the sheet has not."""
+    if len(cloud) < _LEAST_FOR_SHELL or not HAS_CAD:
+        return False
+    splitting, _ = _part_options("shell", given)
+    regions = work.make("regions", "crease_regions_find", cloud._handle, byref(splitting))
+    network = work.make("network", "crease_network_find", regions, None)
+    carries = c_bool(True)
+    work.call("crease_sheet_carries", sheet, regions, network, byref(carries))
+    return not carries.value
 
 
 @overload
@@ -126,9 +142,9 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
 
     points: an array of n x 3, a crease.Cloud, or the path of a file.
     method: part: a face for every smooth region, closed to a solid where the points allow; shell:
-    the same of points that end at a border, where its faces end as well; sheet: one surface whose creases are knot lines; averaging: the paper's Algorithm 1; automatic: a sheet
-    where no surface lies over another, or where an option is given that only sheets have, else a
-    part.
+    the same of points that end at a border, where its faces end as well; sheet: one surface whose creases are knot lines; averaging: the paper's Algorithm 1; automatic: where
+    no surface lies over another a sheet, or a shell if creases are not where a sheet can have them;
+    a sheet where an option is given that only sheets have; else a part.
 
     Of part and shell: sigma: noise of the points along the normal, when it is known; faces: analytic (planes,
     cylinders ... as what they are) or bspline; no_snap: leave surfaces that are parallel,
@@ -148,7 +164,8 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
     _check(method, given)
     cloud = as_cloud(points)
     with Work(threads=threads, seed=seed, progress=progress) as work:
-        if method == "automatic":
+        automatic = method == "automatic"
+        if automatic:
             method = _chosen(work, cloud, given)
         if method in ("part", "shell"):
             return build_part(work, cloud, method, *_part_options(method, given),
@@ -159,4 +176,9 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
         else:
             handle = work.make("sheet", "crease_sheet_fit", cloud._handle,
                                byref(_sheet_options(given)))
+        if automatic and not given.keys() & _SHEET and _wants_shell(work, cloud, handle, given):
+            part = build_part(work, cloud, "shell", *_part_options("shell", given),
+                              snap=not given.get("no_snap", False))
+            if part.state == "shell":
+                return part
     return Sheet(cloud, handle, method)

@@ -110,6 +110,9 @@ crease_status crease_refit_freeforms(crease_segmentation *seg);
 crease_status crease_reconsider(crease_segmentation *seg, size_t *changed);
 /* Gives up regions whose points their neighbours explain nearly as well, and those too small. */
 crease_status crease_give_up(crease_segmentation *seg, size_t *dropped);
+/* Joins regions that meet without an angle where one free form explains both to the noise. *united:
+ * how many were joined away. */
+crease_status crease_unite(crease_segmentation *seg, size_t *united);
 /* Estimates sigma again, from residuals deep inside regions. */
 crease_status crease_measure_noise(crease_segmentation *seg);
 

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* Regions united across smooth joins, and whether a sheet has the creases of a cloud. */
+#include "given.h"
+
+#include "base/random.h"
+
+#include <stdlib.h>
+
+enum { SIDE = 44 };
+
+typedef struct scene {
+    crease_context *context;
+    crease_cloud *cloud;
+    crease_regions *regions;
+    crease_network *network;
+    crease_sheet *sheet;
+} scene;
+
+/* One random point in each cell of a grid over the unit square, under a height. */
+static scene given_heights(double (*height)(double x, double y), double noise)
+{
+    scene s = {.context = given_context_with_threads(2)};
+    double(*const points)[3] = calloc((size_t)SIDE * SIDE, sizeof *points);
+    assert_non_null(points);
+    for (uint64_t i = 0; i < (uint64_t)SIDE * SIDE; i++) {
+        const double x = ((double)(i / SIDE) + crease_random_uniform(3, 1, i)) / SIDE;
+        const double y = ((double)(i % SIDE) + crease_random_uniform(3, 2, i)) / SIDE;
+        const double z = height(x, y) + noise * crease_random_normal(3, 3, i);
+        memcpy(points[i], (double[]){x, y, z}, sizeof points[i]);
+    }
+    const crease_cloud_parts parts = {.count = (size_t)SIDE * SIDE, .points = points[0]};
+    assert_int_equal(crease_cloud_create(s.context, &parts, &s.cloud), CREASE_OK);
+    free(points);
+    return s;
+}
+
+static size_t when_divided(scene *s, bool united)
+{
+    crease_regions_options options = crease_regions_options_default();
+    options.united = united;
+    crease_regions_free(s->regions);
+    assert_int_equal(crease_regions_find(s->context, s->cloud, &options, &s->regions), CREASE_OK);
+    return crease_regions_count(s->regions);
+}
+
+static bool when_carried(scene *s)
+{
+    bool carries = false;
+    when_divided(s, true);
+    assert_int_equal(crease_network_find(s->context, s->regions, NULL, &s->network), CREASE_OK);
+    assert_int_equal(crease_sheet_fit(s->context, s->cloud, NULL, &s->sheet), CREASE_OK);
+    assert_int_equal(
+        crease_sheet_carries(s->context, s->sheet, s->regions, s->network, &carries), CREASE_OK);
+    return carries;
+}
+
+static void free_scene(scene *s)
+{
+    crease_sheet_free(s->sheet);
+    crease_network_free(s->network);
+    crease_regions_free(s->regions);
+    crease_cloud_free(s->cloud);
+    crease_context_free(s->context);
+}
+
+static double roof(double x, double y)
+{
+    (void)y;
+    return -fabs(x - 0.5);
+}
+
+/* Three planes whose creases meet inside at 120 degrees. */
+static double star(double x, double y)
+{
+    const double a = x - 0.5, b = y - 0.5;
+    return fmax(a, fmax(-0.5 * a + 0.8660254 * b, -0.5 * a - 0.8660254 * b));
+}
+
+static double waves(double x, double y)
+{
+    return 0.06 * sin(5.0 * x + 1.0) * cos(4.0 * y);
+}
+
+static double waves_with_a_crease(double x, double y)
+{
+    return waves(x, y) + fmax(0.0, x - 0.5 - 0.1 * sin(4.0 * y));
+}
+
+static void given_waves_then_one_region_when_united(void **state)
+{
+    (void)state;
+    scene s = given_heights(waves, 0.002);
+    const size_t apart = when_divided(&s, false), united = when_divided(&s, true);
+    assert_true(united <= apart);
+    assert_int_equal(united, 1);
+    free_scene(&s);
+}
+
+static void given_a_crease_then_two_regions_even_when_united(void **state)
+{
+    (void)state;
+    scene s = given_heights(waves_with_a_crease, 0.002);
+    assert_int_equal(when_divided(&s, true), 2);
+    free_scene(&s);
+}
+
+static void given_planes_then_uniting_changes_nothing(void **state)
+{
+    (void)state;
+    scene s = given_heights(star, 0.002);
+    assert_int_equal(when_divided(&s, true), 3);
+    for (size_t i = 0; i < 3; i++)
+        assert_int_equal(crease_regions_at(s.regions, i).type, CREASE_REGION_PLANE);
+    free_scene(&s);
+}
+
+static void given_a_roof_then_the_sheet_carries_its_crease(void **state)
+{
+    (void)state;
+    scene s = given_heights(roof, 0.002);
+    assert_true(when_carried(&s));
+    free_scene(&s);
+}
+
+static void given_creases_that_meet_inside_then_no_sheet_carries_them(void **state)
+{
+    (void)state;
+    scene s = given_heights(star, 0.002);
+    assert_false(when_carried(&s));
+    free_scene(&s);
+}
+
+static void given_no_crease_then_any_sheet_will_do(void **state)
+{
+    (void)state;
+    scene s = given_heights(waves, 0.002);
+    assert_true(when_carried(&s));
+    free_scene(&s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(given_waves_then_one_region_when_united),
+        cmocka_unit_test(given_a_crease_then_two_regions_even_when_united),
+        cmocka_unit_test(given_planes_then_uniting_changes_nothing),
+        cmocka_unit_test(given_a_roof_then_the_sheet_carries_its_crease),
+        cmocka_unit_test(given_creases_that_meet_inside_then_no_sheet_carries_them),
+        cmocka_unit_test(given_no_crease_then_any_sheet_will_do),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
