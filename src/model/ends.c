@@ -35,21 +35,6 @@ static int32_t nearest_vertex(const crease_topology *t, const double place[3], i
     return nearest;
 }
 
-/* The region that two edges have in common, then the other ones. False when they have none, or
- * both. */
-static bool three_regions(const crease_edge *a, const crease_edge *b, uint32_t out[3])
-{
-    for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 2; k++) {
-            out[0] = a->regions[i];
-            out[1] = a->regions[1 - i];
-            out[2] = b->regions[1 - k];
-            if (a->regions[i] == b->regions[k] && out[1] != out[2])
-                return true;
-        }
-    return false;
-}
-
 /* The only end of an edge at a vertex: the edge, or NULL when there are more. */
 static crease_edge *only_edge(const crease_graph *graph, int32_t vertex)
 {
@@ -75,7 +60,7 @@ static void join_lonely(const crease_graph *graph)
             const crease_edge *const a = only_edge(graph, (int32_t)v);
             crease_edge *const b = only_edge(graph, (int32_t)w);
             uint32_t regions[3];
-            if (!a || !b || a == b || !three_regions(a, b, regions))
+            if (!a || !b || a == b || !crease_edge_common(a->regions, b->regions, regions))
                 continue;
             b->vertices[b->vertices[1] == (int32_t)w] = (int32_t)v;
             for (int c = 0; c < 3; c++)
@@ -189,7 +174,7 @@ static void spread_at(crease_graph *graph, const crease_edge *a, const crease_ed
     const crease_model *models[3];
     uint32_t regions[3];
     double place[3] = {vertex->place[0], vertex->place[1], vertex->place[2]};
-    if (!three_regions(a, b, regions))
+    if (!crease_edge_common(a->regions, b->regions, regions))
         return;
     for (int i = 0; i < 3; i++)
         models[i] = &graph->survey->regions->models[regions[i]];

@@ -72,20 +72,6 @@ static double ahead_of(const struct tip *tip, const double place[3])
     return crease_vector_dot(d, tip->ahead);
 }
 
-/* The regions of two edges that have exactly one in common. */
-static bool three_regions(const crease_edge *a, const crease_edge *b, uint32_t out[3])
-{
-    for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 2; k++) {
-            out[0] = a->regions[i];
-            out[1] = a->regions[1 - i];
-            out[2] = b->regions[1 - k];
-            if (a->regions[i] == b->regions[k] && out[1] != out[2])
-                return true;
-        }
-    return false;
-}
-
 static void try_corner(
     const crease_graph *graph, const struct tips *tips, size_t a, size_t b, struct corner *best)
 {
@@ -96,7 +82,7 @@ static void try_corner(
     const crease_model *models[3];
     struct corner corner = {.tips = {a, b}};
     if (span > best->length ||
-        !three_regions(&t->edges[x->edge], &t->edges[y->edge], corner.regions))
+        !crease_edge_common(t->edges[x->edge].regions, t->edges[y->edge].regions, corner.regions))
         return;
     for (int i = 0; i < 3; i++) {
         models[i] = &graph->survey->regions->models[corner.regions[i]];

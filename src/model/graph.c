@@ -74,6 +74,19 @@ bool crease_edge_has(const crease_edge *edge, uint32_t region)
     return edge->regions[0] == region || edge->regions[1] == region;
 }
 
+bool crease_edge_common(const uint32_t a[2], const uint32_t b[2], uint32_t out[3])
+{
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 2; k++) {
+            out[0] = a[i];
+            out[1] = a[1 - i];
+            out[2] = b[1 - k];
+            if (a[i] == b[k] && out[1] != out[2])
+                return true;
+        }
+    return false;
+}
+
 static double segment_distance(const double a[3], const double b[3], const double place[3])
 {
     double along[3], from[3], foot[3];

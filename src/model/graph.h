@@ -38,6 +38,9 @@ void crease_edge_erase(crease_edge *edge, size_t begin, size_t end);
 /* Turns the direction of the edge, its vertices with it. */
 void crease_edge_reverse(crease_edge *edge);
 bool crease_edge_has(const crease_edge *edge, uint32_t region);
+/* Of the regions of two edges: the one that both have, then the other of a, then that of b. False
+ * unless it is exactly one. */
+bool crease_edge_common(const uint32_t a[2], const uint32_t b[2], uint32_t out[3]);
 /* Distance of a place from the edge. */
 double crease_edge_distance(const crease_edge *edge, const double place[3]);
 void crease_edge_clear(crease_edge *edge);

@@ -64,20 +64,6 @@ static crease_status list_ends(const crease_graph *graph, struct ends *out)
     return CREASE_OK;
 }
 
-/* The region that two ends have in common, and the other ones. False unless it is exactly one. */
-static bool three_regions(const struct end *a, const struct end *b, uint32_t out[3])
-{
-    for (int i = 0; i < 2; i++)
-        for (int k = 0; k < 2; k++) {
-            out[0] = a->regions[i];
-            out[1] = a->regions[1 - i];
-            out[2] = b->regions[1 - k];
-            if (a->regions[i] == b->regions[k] && out[1] != out[2])
-                return true;
-        }
-    return false;
-}
-
 static bool lacks(const struct end *end, uint32_t a, uint32_t b)
 {
     return end->regions[0] == (a < b ? a : b) && end->regions[1] == (a < b ? b : a);
@@ -207,7 +193,8 @@ static crease_status try_three(
     for (int i = 0; i < 3; i++)
         if (!is_still_odd(graph, ends[i]))
             return CREASE_OK;
-    if (!three_regions(ends[0], ends[1], regions) || !find_corner(graph, links, regions, place))
+    if (!crease_edge_common(ends[0]->regions, ends[1]->regions, regions) ||
+        !find_corner(graph, links, regions, place))
         return CREASE_OK;
     const crease_status status = corner_vertex(graph, ends, place, &corner);
     return status == CREASE_OK ? join(graph, links, ends, corner) : status;
@@ -221,7 +208,7 @@ crease_status crease_missing_find(crease_graph *graph, const crease_links *links
         for (size_t b = a + 1; b < ends.count && status == CREASE_OK; b++) {
             const struct end *three[3] = {&ends.items[a], &ends.items[b], NULL};
             uint32_t regions[3];
-            if (!three_regions(three[0], three[1], regions))
+            if (!crease_edge_common(three[0]->regions, three[1]->regions, regions))
                 continue;
             for (size_t c = b + 1; c < ends.count && status == CREASE_OK; c++) {
                 three[2] = &ends.items[c];
