@@ -29,7 +29,7 @@ mkdir static && cp "$lib/libcrease.a" static
 check "and with the static library" cc "$root/examples/c/04_splines.c" -o alone -Lstatic $(pkg-config --cflags --libs --static crease)
 check "and runs" sh -c './alone m.glb | grep "multiplicity 3"'
 
-check "a cloud to try" "$work/usr/bin/crease" example bracket -o bracket.ply
+check "a cloud to try" "$work/usr/bin/crease" example bracket --count 8000 -o bracket.ply
 check "creases" cmake-OFF/01_creases bracket.ply creases.csv
 check "are written" grep -q region_1 creases.csv
 check "a part" sh -c 'cmake-OFF/03_part bracket.ply part.step | grep "closed solid"'

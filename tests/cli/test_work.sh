@@ -73,7 +73,8 @@ expect 0 "wrote c.igs" detect cube.ply --creases c.igs
 expect 0 "12 edges, 24 vertices" info c.igs
 expect 0 "no crease to write: none.step" detect panel.ply --sigma 0.2 --creases none.step
 check "a file without creases is not written" test ! -e none.step
-expect 0 "wrote l.step" fit panel.ply --creases l.step
+expect 0 "600 points" example panel --count 600 -o few.ply
+expect 0 "wrote l.step" fit few.ply --creases l.step
 expect 0 "1 edges, 2 vertices" info l.step
 
 # --- a cloud beside a model
@@ -112,10 +113,9 @@ check "creases do not depend on the detector" sh -c '
     "$0" detect panel.ply -q -d variation --creases a.csv && "$0" detect panel.ply -q --creases b.csv && cmp a.csv b.csv' "$crease"
 
 # --- a known noise is taken as it is: with a large one the panel's edge drowns
-expect 0 "noise 0.001" detect panel.ply --sigma 0.001 -o known.ply
-expect 0 "creases: 1" detect panel.ply --sigma 0.001 -o known.ply
-expect 0 "creases: none" detect panel.ply --sigma 0.2 -o known.ply
-expect 0 "creases: none" detect panel.ply --sigma 0.2 -o none.png -o none.html
+expect 0 "noise 0.008" detect panel.ply --sigma 0.008 -o known.ply
+case "$printed" in *"creases: 1,"*) ;; *) fail "with the noise that it has the crease is lost: $printed" ;; esac
+expect 0 "creases: none" detect panel.ply --sigma 0.2 -o none.ply -o none.png -o none.html
 expect 2 "number from 0" detect panel.ply --sigma -1 -o known.ply
 
 # --- fit, sheet
@@ -226,7 +226,7 @@ for threads in 1 2 4; do
     mkdir $threads
     expect 0 "" detect panel.ply -q -t $threads -o $threads/d.ply
     expect 0 "" filter panel.ply -q -t $threads -o $threads/c.ply
-    expect 0 "" fit panel.ply -q -t $threads -o $threads/f.step -o $threads/f.obj -o $threads/f.html -o $threads/f.png
+    expect 0 "" fit few.ply -q -t $threads -o $threads/f.step -o $threads/f.obj -o $threads/f.html -o $threads/f.png
 done
 for file in c.ply d.ply f.step f.obj f.html f.png; do
     check "$file is the same for 1 and 2 threads" cmp 1/$file 2/$file

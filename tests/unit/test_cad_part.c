@@ -361,7 +361,7 @@ static void given_failing_allocations_then_the_build_fails_cleanly(void **state)
     const given_body box = given_box(1, 1, 1);
     built b = given_part_cloud(given_sample(&box, 0.2, 0, 7), 1);
     long n = 0;
-    for (crease_status status = CREASE_ERROR_NO_MEMORY; status != CREASE_OK; n++) {
+    for (crease_status status = CREASE_ERROR_NO_MEMORY; status != CREASE_OK; n += 1 + n / 16) {
         crease_context_fail_allocation(b.context, n);
         status = crease_part_build(b.context, b.cloud, b.regions, NULL, NULL, &b.part);
         if (status != CREASE_OK)

@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-enum { SIDE = 44 };
+enum { SIDE = 36 };
 
 typedef struct scene {
     crease_context *context;

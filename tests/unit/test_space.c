@@ -142,7 +142,7 @@ static void given_any_cloud_then_neighbours_are_those_of_brute_force(void **stat
     for (int kind = 0; kind < KINDS; kind++) {
         struct points points = given_points(kinds[kind].name, kinds[kind].make, COUNT);
         crease_cloud *cloud = given_cloud(context, &points);
-        for (int k = 1 + kind % 2; k <= 64; k += 2) {
+        for (int k = 1 + kind % 5; k <= 64; k += 5) {
             crease_neighbours *found = NULL;
             assert_int_equal(crease_neighbours_find(context, cloud, k, &found), CREASE_OK);
             assert_int_equal(crease_neighbours_k(found), k);
@@ -421,7 +421,6 @@ static void given_a_sorted_cloud_then_keys_ascend_and_the_order_is_a_permutation
     crease_context_free(context);
 }
 
-/* The corners of a cube, in the order in which the curve meets them. */
 /* As many points as fill the chunks of the sort to the last one. */
 static void given_a_whole_number_of_chunks_then_the_order_is_a_permutation(void **state)
 {
@@ -447,6 +446,7 @@ static void given_a_whole_number_of_chunks_then_the_order_is_a_permutation(void 
     crease_context_free(context);
 }
 
+/* The corners of a cube, in the order in which the curve meets them. */
 static void given_the_corners_of_a_cube_then_the_curve_goes_z_first(void **state)
 {
     crease_context *context = given_context();
