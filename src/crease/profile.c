@@ -15,6 +15,7 @@
 #include "base/parallel.h"
 #include "base/symmetric.h"
 #include "base/vector.h"
+#include "crease/sides.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -336,6 +337,10 @@ static void prune_some(void *user, size_t begin, size_t end, int worker)
         const double bend = crease_chain_mean_bend(chain);
         run->keep[i] = true;
         const uint8_t *const rounded = run->survey->regions->rounded;
+        if (!rounded && !crease_sides_end(run->survey, chain, run->workers[worker].found)) {
+            run->keep[i] = false;
+            continue;
+        }
         if (rounded ? is_rounded(run->survey, chain, run->workers[worker].found)
                     : bend >= acos(-1.0) / 3.0)
             continue;

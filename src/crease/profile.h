@@ -11,8 +11,9 @@
 #include "crease/chain.h"
 #include "crease/survey.h"
 
-/* Removes the chains that bend by less than 60 degrees and whose points a smooth profile explains
- * as well as one with a kink. Threaded over the chains. Errors: NO_MEMORY, CANCELLED. */
+/* Removes the chains that the regions do not end at (sides.h), and those that bend by less than 60
+ * degrees and whose points a smooth profile explains as well as one with a kink. Threaded over the
+ * chains. Errors: NO_MEMORY, CANCELLED. */
 crease_status crease_profile_prune(
     crease_context *context, const crease_survey *survey, crease_chains *chains);
 

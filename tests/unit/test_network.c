@@ -621,6 +621,51 @@ static void given_cancelled_context_when_found_then_cancelled(void **state)
     end_world(&w);
 }
 
+/* Points of a plane that is turned about y, from `low` to 1 across it. */
+static void add_turned(given_points *to, double turn, double low, int32_t label)
+{
+    for (double u = low; u < 1; u += S)
+        for (double v = -1; v < 1; v += S) {
+            const uint64_t draw = to->count;
+            const double across = u + S * crease_random_uniform(8, 1, draw);
+            const double along = v + S * crease_random_uniform(8, 2, draw);
+            const double place[3] = {across * cos(turn), along, across * sin(turn)};
+            given_point(to, place, label);
+        }
+}
+
+/* The plane z = 0 and one at an angle to it, which begins at `low`. */
+static world world_of_planes(double degrees, double low)
+{
+    const double turn = degrees * acos(-1) / 180, origin[3] = {0}, up[3] = {0, 0, 1};
+    const double across[3] = {-sin(turn), 0, cos(turn)};
+    given_body body = {.size = 1};
+    given_points points = {0, 0, NULL, NULL};
+    given_add(&body, given_plane(origin, up));
+    given_add(&body, given_plane(origin, across));
+    add_turned(&points, 0, -1, 0);
+    add_turned(&points, turn, low, 1);
+    return world_of_points(&body, points, S, 0);
+}
+
+static void given_rib_on_plate_when_found_then_crease_at_its_foot(void **state)
+{
+    world w = world_of_planes(60, 0);
+    assert_int_equal(crease_network_count(w.network), 1);
+    assert_near(crease_network_at(w.network, 0).length, 2, 2 * S);
+    end_world(&w);
+}
+
+static void given_surfaces_that_cross_when_found_then_no_crease(void **state)
+{
+    const double degrees[] = {15, 60, 90};
+    for (int i = 0; i < 3; i++) {
+        world w = world_of_planes(degrees[i], -1);
+        assert_int_equal(crease_network_count(w.network), 0);
+        end_world(&w);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -646,6 +691,8 @@ int main(void)
         cmocka_unit_test(given_options_out_of_range_when_found_then_error),
         cmocka_unit_test(given_failing_memory_when_found_then_error_and_no_leak),
         cmocka_unit_test(given_cancelled_context_when_found_then_cancelled),
+        cmocka_unit_test(given_rib_on_plate_when_found_then_crease_at_its_foot),
+        cmocka_unit_test(given_surfaces_that_cross_when_found_then_no_crease),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
