@@ -3,7 +3,8 @@
 
 /* Models fitted again to the regions they have by now, and the noise measured again from them.
  * Points next to other regions are left out where there are enough others: their labels were chosen
- * by their distances, so they bend a surface towards where it is already. */
+ * by their distances, so they bend a surface towards where it is already. Those too far from the
+ * other regions' surfaces to be of them stay: without them a free form swings at its border. */
 #include "segment/segmentation.h"
 
 #include "base/memory.h"
@@ -12,12 +13,13 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { GRAIN = 4096, LEAST_MEMBERS = 6, LEAST_INTERIOR = 30, LARGE_FREEFORM = 2000 };
+enum { GRAIN = 4096, LEAST_MEMBERS = 6, LEAST_INTERIOR = 30, LARGE_FREEFORM = 1000 };
 enum { DEEP_REGION = 60, LEAST_RESIDUALS = 200 };
 
 static const double least_sigma = 0.03; /* in spacings, as in cloud/noise.c */
 static const double least_share = 0.8;  /* of the first estimate: residuals that are smaller still
                                            come of too many regions */
+static const double certain = 4.0;      /* sigmas from another surface that no point of it has */
 
 typedef struct refitting {
     crease_segmentation *seg;
@@ -27,6 +29,23 @@ typedef struct refitting {
     bool freeforms;  /* only large free forms, each to be as close as it can */
     uint8_t *interior;
 } refitting;
+
+/* Whether a point that has neighbours of other regions cannot be of theirs. */
+static bool is_certain(const crease_segmentation *seg, size_t point, int depth)
+{
+    const uint32_t *const near = crease_segmentation_near(seg, point);
+    double gradient[3];
+    for (int j = 1; j <= depth; j++) {
+        const int32_t label = seg->labels[near[j]];
+        if (label == seg->labels[point])
+            continue;
+        if (label < 0 ||
+            fabs(crease_model_distance(&seg->models[label], seg->points + 3 * point, gradient)) <
+                certain * seg->sigma)
+            return false;
+    }
+    return true;
+}
 
 static void find_interior(void *user, size_t begin, size_t end, int worker)
 {
@@ -38,7 +57,8 @@ static void find_interior(void *user, size_t begin, size_t end, int worker)
         int j = 1;
         while (j <= run->depth && seg->labels[near[j]] == seg->labels[i])
             j++;
-        run->interior[i] = seg->labels[i] >= 0 && j > run->depth;
+        run->interior[i] =
+            seg->labels[i] >= 0 && (j > run->depth || is_certain(seg, i, run->depth));
     }
 }
 

@@ -131,6 +131,45 @@ static void given_rod_when_found_then_two_rings_and_no_seam(void **state)
     end_world(&w);
 }
 
+/* Two sheets without noise over the unit squares beside y = 0, which bend towards their crease. */
+static double height_of(double x, double y)
+{
+    const double wave = 0.1 * cos(5 * x);
+    return y < 0 ? wave - 0.9 * y * (1 - x) * (1 - x) - 0.5 * y * y
+                 : wave + 1.2 * y * x * x + 0.4 * y - 0.8 * y * y;
+}
+
+static given_points given_sheets(int side)
+{
+    given_points points = {0, 0, NULL, NULL};
+    for (int i = 0; i < 2 * side * side; i++) {
+        const uint64_t draw = (uint64_t)i;
+        const double x = (i % side + crease_random_uniform(6, 1, draw)) / side;
+        const double y = (i / side + crease_random_uniform(6, 2, draw)) / side - 1;
+        const double place[3] = {x, y, height_of(x, y)};
+        given_point(&points, place, 0);
+    }
+    return points;
+}
+
+static void given_curved_sheets_when_found_then_crease_where_they_meet(void **state)
+{
+    const int side = 40;
+    world w = world_of_points(given_sheets(side), 2);
+    assert_int_equal(crease_network_count(w.network), 1);
+    const crease_curve *curve = crease_network_curves(w.network)[0];
+    double domain[2], squares = 0;
+    crease_curve_domain(curve, domain);
+    for (int k = 0; k <= 100; k++) {
+        double place[3];
+        crease_curve_evaluate(
+            curve, domain[0] + (domain[1] - domain[0]) * k / 100, CREASE_SIDE_RIGHT, 0, place);
+        squares += (pow(place[1], 2) + pow(place[2] - height_of(place[0], 0), 2)) / 101;
+    }
+    assert_true(sqrt(squares) * side < 0.15);
+    end_world(&w);
+}
+
 static void given_torus_and_sphere_when_found_then_no_crease(void **state)
 {
     const double origin[3] = {0, 0, 0}, z[3] = {0.3, 0.1, 1};
@@ -213,6 +252,7 @@ int main(void)
         cmocka_unit_test(given_noisy_cube_when_found_then_edges_as_sure_as_they_say),
         cmocka_unit_test(given_noisy_cube_when_found_then_features_beside_edges),
         cmocka_unit_test(given_rod_when_found_then_two_rings_and_no_seam),
+        cmocka_unit_test(given_curved_sheets_when_found_then_crease_where_they_meet),
         cmocka_unit_test(given_torus_and_sphere_when_found_then_no_crease),
         cmocka_unit_test(given_open_sheet_when_found_then_its_border_is_no_crease),
         cmocka_unit_test(given_pyramid_when_found_then_four_creases_meet),
