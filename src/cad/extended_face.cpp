@@ -3,6 +3,8 @@
 
 #include "cad/extended_face.hpp"
 
+#include "cad/tube.hpp"
+
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <ElSLib.hxx>
 #include <GeomAPI_PointsToBSplineSurface.hxx>
@@ -28,7 +30,8 @@ static constexpr double CLOSED_COVER = 5.0;   /* radians with points that do so 
 static constexpr double MARGINS_IN_GAP = 2.2; /* a gap that the margins would fill closes, too */
 static constexpr double LEAST_OPENING = 0.05; /* radians that an open sector leaves out */
 static constexpr double CLEAR_SIDE = 0.2;     /* mean normal of a cap: what makes it a cap */
-static constexpr double WIDEST_CAP = 2.6;     /* radians from its middle; wider: all of it */
+static constexpr int LEAST_ROWS = 48, ROWS_PER_SPAN = 3; /* of a free form around its axis */
+static constexpr double WIDEST_CAP = 2.6; /* radians from its middle; wider: all of it */
 
 /* The extent of points along two directions. */
 struct Extent {
@@ -138,27 +141,74 @@ static ExtendedFace extend_cone(const Carrier &carrier, const gp_Ax3 &frame, Ext
     return out;
 }
 
-/* A full turn, its seam where there are fewest points, or a sector. */
-static ExtendedFace extend_round(const Job &job, const Carrier &carrier, double margin)
+/* How much of a full turn a face about an axis takes, of points at about a radius. */
+static double half_of_turn(const Job &job, const Cover &cover, double radius, double margin)
 {
-    const Cover cover = cover_of(carrier);
-    const double gap = (2.0 * M_PI - cover.angle) * carrier.radius;
+    const double gap = (2.0 * M_PI - cover.angle) * radius;
     const bool closed = cover.angle > CLOSED_COVER ||
         gap < std::max(CLOSED_GAP * job.spacing, MARGINS_IN_GAP * margin);
-    const double half =
-        closed ? M_PI : std::min(cover.angle / 2.0 + margin / carrier.radius, M_PI - LEAST_OPENING);
+    return closed ? M_PI : std::min(cover.angle / 2.0 + margin / radius, M_PI - LEAST_OPENING);
+}
+
+/* A full turn, its seam where there are fewest points, or a sector. */
+static Extent extent_around(
+    const Job &job, const Carrier &carrier, const Cover &cover, double radius, double margin)
+{
+    const double half = half_of_turn(job, cover, radius, margin);
     Extent extent;
     for (const gp_Pnt &place : carrier.points)
         extent.add(M_PI, local(carrier.frame, place).Z());
     extent = extent.grown(margin);
     extent.low[0] = M_PI - half;
     extent.high[0] = M_PI + half;
+    return extent;
+}
+
+static ExtendedFace extend_round(const Job &job, const Carrier &carrier, double margin)
+{
+    const Cover cover = cover_of(carrier);
+    const Extent extent = extent_around(job, carrier, cover, carrier.radius, margin);
     const gp_Ax3 frame = turned(carrier.frame, cover.middle_of_gap);
     if (carrier.type == CREASE_REGION_CONE)
         return extend_cone(carrier, frame, extent);
     ExtendedFace out = {};
     out.surface = new Geom_CylindricalSurface(frame, carrier.radius);
     out.face = face_on(out.surface, extent);
+    return out;
+}
+
+static double mean_distance(const Carrier &carrier)
+{
+    double sum = 0.0;
+    for (const gp_Pnt &place : carrier.points) {
+        const gp_XYZ at = local(carrier.frame, place);
+        sum += std::hypot(at.X(), at.Y());
+    }
+    return sum / (double)carrier.points.size();
+}
+
+static ExtendedFace extend_tube(const Job &job, const Carrier &carrier, double margin)
+{
+    const Cover cover = cover_of(carrier);
+    const Extent extent = extent_around(job, carrier, cover, mean_distance(carrier), margin);
+    const int rows = std::max(LEAST_ROWS, ROWS_PER_SPAN * carrier.spans);
+    const int columns = 2 * carrier.spans + 6;
+    TColStd_Array2OfReal distances(1, rows, 1, columns);
+    for (int i = 0; i < rows; i++)
+        for (int k = 0; k < columns; k++)
+            distances(i + 1, k + 1) =
+                job.height(carrier, cover.middle_of_gap + 2.0 * M_PI * i / rows,
+                    extent.low[1] + (extent.high[1] - extent.low[1]) * k / (columns - 1));
+    ExtendedFace out = {};
+    out.frame = turned(carrier.frame, cover.middle_of_gap);
+    out.round = true;
+    const Handle(Geom_BSplineSurface) tube = tube_through(distances, extent.low[1], extent.high[1]);
+    gp_Trsf move;
+    move.SetTransformation(out.frame, gp_Ax3());
+    tube->Transform(move);
+    out.surface = tube;
+    out.face = extent.high[0] < 2.0 * M_PI ? face_on(tube, extent)
+                                           : BRepBuilderAPI_MakeFace(tube, TOLERANCE).Face();
     return out;
 }
 
@@ -238,6 +288,8 @@ ExtendedFace extend(const Job &job, const Carrier &carrier, double margin)
     case CREASE_REGION_TORUS:
         return extend_torus(carrier);
     default:
+        if (carrier.round)
+            return extend_tube(job, carrier, margin);
         return extend_freeform(job, carrier, margin);
     }
 }
@@ -256,6 +308,11 @@ gp_Pnt2d foot(const ExtendedFace &extended, const gp_Pnt &place)
         ElSLib::Parameters(ball->Sphere(), place, u, v);
     } else if (const auto ring = Handle(Geom_ToroidalSurface)::DownCast(surface); !ring.IsNull()) {
         ElSLib::Parameters(ring->Torus(), place, u, v);
+    } else if (extended.round) {
+        const gp_XYZ at = local(extended.frame, place);
+        u = std::atan2(at.Y(), at.X());
+        u = u < 0.0 ? u + 2.0 * M_PI : u;
+        v = at.Z();
     } else {
         const gp_XYZ at = local(extended.frame, place);
         u = extended.origin[0] + extended.per_length[0] * at.X();

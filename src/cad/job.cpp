@@ -71,6 +71,7 @@ void Job::take_carriers()
         to.frame = gp_Ax3(inward(from.centre), gp_Dir(z[0], z[1], z[2]), gp_Dir(x[0], x[1], x[2]));
         to.radius = from.radius * factor;
         to.shape = from.type == CREASE_REGION_TORUS ? from.shape * factor : from.shape;
+        to.round = from.round;
         to.spans = from.spans;
         to.region = from.region;
         to.number = (uint32_t)i;
@@ -108,7 +109,8 @@ double Job::distance(const Carrier &carrier, const gp_Pnt &place) const
 
 double Job::height(const Carrier &carrier, double x, double y) const
 {
-    return crease_carriers_height(found.get(), carrier.number, x / factor, y / factor) * factor;
+    const double along = carrier.round ? x : x / factor;
+    return crease_carriers_height(found.get(), carrier.number, along, y / factor) * factor;
 }
 
 double Job::area_of_point(size_t index) const

@@ -3,16 +3,14 @@
 
 #include "cad/sheet.hpp"
 
-#include "cad/kernel.hpp"
+#include "cad/tube.hpp"
 
-#include <GeomAPI_PointsToBSplineSurface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_ConicalSurface.hxx>
 #include <Geom_CylindricalSurface.hxx>
 #include <Geom_Plane.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_ToroidalSurface.hxx>
-#include <TColStd_Array1OfReal.hxx>
 #include <TColStd_Array2OfReal.hxx>
 #include <gp_Trsf.hxx>
 
@@ -64,39 +62,21 @@ double Sheet::half_angle() const
     return std::atan(chart.shape);
 }
 
-/* Lets the knots of one direction run from low to high. */
-static void set_range(
-    const Handle(Geom_BSplineSurface) & spline, int direction, double low, double high)
-{
-    TColStd_Array1OfReal knots(1, direction ? spline->NbVKnots() : spline->NbUKnots());
-    direction ? spline->VKnots(knots) : spline->UKnots(knots);
-    const double first = knots.First(), length = knots.Last() - first;
-    for (int i = knots.Lower(); i <= knots.Upper(); i++)
-        knots(i) = low + (knots(i) - first) / length * (high - low);
-    direction ? spline->SetVKnots(knots) : spline->SetUKnots(knots);
-}
-
-/* A bicubic surface through the heights. */
+/* A bicubic surface through the heights. The last row of a round one is the first again. */
 void Sheet::interpolate(const crease_chart &from, double factor)
 {
-    const int side = (int)from.side;
-    TColStd_Array2OfReal heights(1, side, 1, side);
-    double step[2];
-    for (int d = 0; d < 2; d++) {
+    const int side = (int)from.side, rows = from.round ? side - 1 : side;
+    TColStd_Array2OfReal heights(1, rows, 1, side);
+    for (int d = from.round ? 1 : 0; d < 2; d++) {
         chart.low[d] *= factor;
         chart.high[d] *= factor;
-        step[d] = (chart.high[d] - chart.low[d]) / (side - 1);
     }
-    for (int i = 0; i < side; i++)
+    for (int i = 0; i < rows; i++)
         for (int k = 0; k < side; k++)
             heights(i + 1, k + 1) = factor * from.heights[i * side + k];
-    GeomAPI_PointsToBSplineSurface spline;
-    spline.Interpolate(heights, chart.low[0], step[0], chart.low[1], step[1]);
-    if (!spline.IsDone())
-        throw Failure{CREASE_ERROR_NUMERIC, "a free form has no B-spline through its heights"};
-    const Handle(Geom_BSplineSurface) result = spline.Surface();
-    for (int d = 0; d < 2; d++)
-        set_range(result, d, chart.low[d], chart.high[d]);
+    const Handle(Geom_BSplineSurface) result = from.round
+        ? tube_through(heights, chart.low[1], chart.high[1])
+        : surface_through(heights, chart.low, chart.high);
     gp_Trsf to_place;
     to_place.SetTransformation(frame(), gp_Ax3(gp::XOY()));
     result->Transform(to_place);

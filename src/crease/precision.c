@@ -14,8 +14,9 @@ static double tilt_variance(
     const crease_model *model, const double place[3], const double inward[3], double away)
 {
     if (model->type == CREASE_REGION_FREEFORM) {
-        const double width = fmin(
-            model->patch.high[0] - model->patch.low[0], model->patch.high[1] - model->patch.low[1]);
+        const crease_patch *const patch = &model->patch;
+        const double length = patch->high[1] - patch->low[1];
+        const double width = patch->round ? length : fmin(patch->high[0] - patch->low[0], length);
         return width > 0.0 ? 4.0 * crease_model_variance(model, place) / (width * width) : 0.0;
     }
     double before[3], after[3];

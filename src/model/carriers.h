@@ -20,10 +20,12 @@ typedef struct crease_carriers crease_carriers;
 typedef struct crease_carrier {
     crease_region_type type;
     /* Of its frame: on the axis for cylinder and cone, the middle of sphere and torus; a free form
-     * is a height along z over x and y. The axes are orthonormal, row by row. */
+     * is a height along z over x and y, or, when round, a distance from z over the angle about it
+     * and the place along it. The axes are orthonormal, row by row. */
     double centre[3], axes[9];
     double radius;   /* sphere, cylinder, cone at the centre, circle of a torus */
     double shape;    /* cone: growth of the radius along z; torus: radius of the tube */
+    bool round;      /* free form: about its z axis */
     int spans;       /* free form: pieces of the height along either direction */
     uint32_t region; /* the largest of its regions */
 } crease_carrier;
@@ -41,7 +43,8 @@ CREASE_API const double *crease_carriers_areas(const crease_carriers *carriers);
 /* As crease_regions_distance(). */
 CREASE_API double crease_carriers_distance(
     const crease_carriers *carriers, size_t index, const double place[3], double gradient[3]);
-/* Of a free form: the height over a place of its frame's plane, inside and outside its points. */
+/* Of a free form: the height over a place of its frame's plane, inside and outside its points; of a
+ * round one the distance from its axis at an angle and a height. */
 CREASE_API double crease_carriers_height(
     const crease_carriers *carriers, size_t index, double x, double y);
 

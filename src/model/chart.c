@@ -14,7 +14,7 @@ bool crease_chart_turns(const crease_chart *chart, int direction)
     const crease_region_type type = chart->type;
     if (direction == 1)
         return type == CREASE_REGION_TORUS;
-    return type != CREASE_REGION_PLANE && type != CREASE_REGION_FREEFORM;
+    return type == CREASE_REGION_FREEFORM ? chart->round : type != CREASE_REGION_PLANE;
 }
 
 double crease_chart_near(double angle, double other)
@@ -45,8 +45,8 @@ void crease_chart_at(const crease_chart *chart, const double place[3], double uv
         uv[1] = crease_chart_near(atan2(z, away - chart->radius), chart->middle);
         break;
     default:
-        uv[0] = x;
-        uv[1] = y;
+        uv[0] = chart->round ? uv[0] : x;
+        uv[1] = chart->round ? z : y;
     }
 }
 

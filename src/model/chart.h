@@ -4,7 +4,8 @@
 /* Parameters u, v on the surface of a face, the same as CAD kernels use: u the angle about the axis
  * of sphere, cylinder, cone and torus; v the height of a cylinder, the length along a cone's side,
  * the latitude on a sphere, the angle about the tube of a torus; x and y of planes and height
- * fields. Plain C without atomics, so that C++ can include it. */
+ * fields, angle and height of free forms about an axis. Plain C without atomics, so that C++ can
+ * include it. */
 #ifndef CREASE_MODEL_CHART_H
 #define CREASE_MODEL_CHART_H
 
@@ -20,8 +21,9 @@ typedef struct crease_chart {
     double axes[9];         /* x, y, z row by row, right-handed; u = 0 along x */
     double radius, shape;   /* as in crease_model, but the shape of a cone is not negative */
     double middle;          /* torus: v is within half a turn of it */
+    bool round;             /* free form: about its z axis, its heights are distances from it */
     double low[2], high[2]; /* free form: the rectangle that its heights cover, ... */
-    size_t side;            /* ... side x side of them, those of one x together */
+    size_t side;            /* ... side x side of them, those of one u together */
     double *heights;
 } crease_chart;
 

@@ -13,11 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEIGHTS = 48 };
+enum { LEAST_HEIGHTS = 48, HEIGHTS_PER_SPAN = 3 };
 
 static const double CAP_COSINE = 0.26; /* of the angle from the middle up to which a face of a
                                           sphere is a patch that no pole is near */
 static const double MARGIN = 3.0;      /* spacings around a free form */
+static const double TURN = 6.283185307179586476925;
 
 /* ------------------------------------------------------------------------------- frames -- */
 
@@ -26,6 +27,7 @@ static crease_chart chart_of(const crease_model *model)
 {
     crease_chart chart = {.type = model->type,
         .radius = model->radius,
+        .round = model->type == CREASE_REGION_FREEFORM && model->patch.round,
         .shape = model->type == CREASE_REGION_CONE ? fabs(model->shape) : model->shape};
     const double up = model->type == CREASE_REGION_CONE && model->shape < 0.0 ? -1.0 : 1.0;
     for (int c = 0; c < 3; c++) {
@@ -194,21 +196,50 @@ static void find_rectangle(const crease_graph *graph, uint32_t region, crease_ch
         chart->low[d] -= MARGIN * graph->survey->spacing;
         chart->high[d] += MARGIN * graph->survey->spacing;
     }
+    if (chart->round) {
+        chart->low[0] = 0.0;
+        chart->high[0] = TURN;
+    }
 }
 
-/* The chart's y may be against the model's. */
+/* The model's own x and y, or angle and z, of u and v. */
+static void model_parameters(
+    const crease_model *model, const crease_chart *chart, const double uv[2], double out[2])
+{
+    const double *const x = chart->axes, *const y = x + 3;
+    double towards[3];
+    out[1] = uv[1];
+    if (!chart->round) {
+        out[0] = uv[0];
+        out[1] *= crease_vector_dot(y, model->axes + 3) < 0.0 ? -1.0 : 1.0;
+        return;
+    }
+    for (int c = 0; c < 3; c++)
+        towards[c] = cos(uv[0]) * x[c] + sin(uv[0]) * y[c];
+    out[0] =
+        atan2(crease_vector_dot(towards, model->axes + 3), crease_vector_dot(towards, model->axes));
+}
+
 static void sample_heights(const crease_model *model, crease_chart *chart)
 {
-    const double hand = crease_vector_dot(chart->axes + 3, model->axes + 3) < 0.0 ? -1.0 : 1.0;
     const double cells = (double)(chart->side - 1);
     for (size_t i = 0; i < chart->side; i++)
         for (size_t k = 0; k < chart->side; k++) {
-            const double x = chart->low[0] + (chart->high[0] - chart->low[0]) * (double)i / cells;
-            const double y = chart->low[1] + (chart->high[1] - chart->low[1]) * (double)k / cells;
-            double slope[2];
+            const double uv[2] = {
+                chart->low[0] + (chart->high[0] - chart->low[0]) * (double)i / cells,
+                chart->low[1] + (chart->high[1] - chart->low[1]) * (double)k / cells};
+            double at[2], slope[2];
+            model_parameters(model, chart, uv, at);
             chart->heights[i * chart->side + k] =
-                crease_patch_at(&model->patch, x, hand * y, slope);
+                crease_patch_at(&model->patch, at[0], at[1], slope);
         }
+}
+
+/* So many heights that a spline through them is the spline that they are of. */
+static size_t heights_of(const crease_patch *patch)
+{
+    const size_t wanted = patch->spline ? HEIGHTS_PER_SPAN * (size_t)patch->spans : 0;
+    return wanted > LEAST_HEIGHTS ? wanted : LEAST_HEIGHTS;
 }
 
 crease_status crease_charts_cover(crease_graph *graph)
@@ -218,12 +249,14 @@ crease_status crease_charts_cover(crease_graph *graph)
         crease_chart *const chart = &t->charts[i];
         if (chart->type != CREASE_REGION_FREEFORM)
             continue;
-        chart->side = HEIGHTS;
-        chart->heights = crease_allocate(graph->context, HEIGHTS * HEIGHTS, sizeof *chart->heights);
+        const crease_model *const model = &graph->survey->regions->models[i];
+        chart->side = heights_of(&model->patch);
+        chart->heights =
+            crease_allocate(graph->context, chart->side * chart->side, sizeof *chart->heights);
         if (!chart->heights)
             return CREASE_ERROR_NO_MEMORY;
         find_rectangle(graph, (uint32_t)i, chart);
-        sample_heights(&graph->survey->regions->models[i], chart);
+        sample_heights(model, chart);
     }
     return CREASE_OK;
 }

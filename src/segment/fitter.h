@@ -39,6 +39,9 @@ bool crease_fit_polynomial(
     crease_fitter *fitter, const crease_sample *sample, int degree, crease_model *model);
 bool crease_fit_spline(
     crease_fitter *fitter, const crease_sample *sample, int spans, crease_model *model);
+/* A round height field, about an axis that the points surround; at least 4 spans. */
+bool crease_fit_tube(
+    crease_fitter *fitter, const crease_sample *sample, int spans, crease_model *model);
 
 /* Rough models, from normals and linear least squares. */
 bool crease_guess_sphere(const crease_sample *sample, crease_model *model);

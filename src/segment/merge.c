@@ -11,17 +11,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum {
-    LEAST_LINKS = 3,
-    SIGN_POINTS = 32,
-    SMALL = 60, /* points of a plane that may be a piece of something else */
-    FEW = 150   /* and of other pieces */
-};
+enum { LEAST_LINKS = 3, SIGN_POINTS = 32 };
 
-static const double least_agreement = 0.8;   /* mean |cosine| between the models of large regions */
-static const double waves_agree = 0.94;      /* the same for the waves of one face: 20 degrees */
-static const double smooth_agreement = 0.98; /* the same of regions that join smoothly */
-static const double flat_cosine = 0.966;     /* 15 degrees from the mean normal */
+static const double least_agreement = 0.8; /* mean |cosine| between the models of large regions */
+static const double waves_agree = 0.94;    /* the same for the waves of one face: 20 degrees */
 static const uint32_t NONE = UINT32_MAX;
 
 /* A link between two regions, at a point. */
@@ -44,7 +37,6 @@ typedef struct merging {
     size_t large;     /* more points: a region whose surface at the border says what it is */
     double tolerance; /* mean square residual, in square sigmas, that one model may leave on each of
                          two regions, or 0: it must be the likelier */
-    bool vague; /* only regions of no definite kind are joined, whatever the parameters cost */
     region_pair *pairs;
     size_t pair_count;
     size_t *pending; /* pairs whose gains are to be worked out */
@@ -215,65 +207,6 @@ static void find_tolerable(merging *run, crease_fitter *fitter, const crease_sam
         keep_model(run, pair, &fitter->best, within_tolerance(run, &fitter->best, low, high));
 }
 
-/* Whether the normals of a region turn so little that its kind is a guess. */
-static bool is_flat(const crease_segmentation *seg, size_t region)
-{
-    const uint32_t *const members = seg->members + seg->first[region];
-    const size_t size = crease_segmentation_size(seg, region);
-    const size_t taken = size < SIGN_POINTS ? size : SIGN_POINTS;
-    double gradients[SIGN_POINTS][3], mean[3] = {0.0};
-    for (size_t i = 0; i < taken; i++) {
-        const double *const place = seg->points + 3 * (size_t)members[i * size / taken];
-        crease_model_distance(&seg->models[region], place, gradients[i]);
-        for (int c = 0; c < 3; c++)
-            mean[c] += gradients[i][c];
-    }
-    crease_vector_normalise(mean);
-    for (size_t i = 0; i < taken; i++)
-        if (crease_vector_dot(gradients[i], mean) < flat_cosine)
-            return false;
-    return true;
-}
-
-/* Free forms, and small or flat pieces of anything else but large planes. */
-static bool is_vague(const crease_segmentation *seg, size_t region)
-{
-    const crease_region_type type = seg->models[region].type;
-    if (type == CREASE_REGION_FREEFORM)
-        return true;
-    if (type == CREASE_REGION_PLANE)
-        return crease_segmentation_size(seg, region) < SMALL;
-    return is_flat(seg, region);
-}
-
-static bool is_vague_pair(const merging *run, const region_pair *pair)
-{
-    const crease_segmentation *const seg = run->seg;
-    const size_t sizes[2] = {run->sizes[pair->low], run->sizes[pair->high]};
-    const bool form = seg->models[pair->low].type == CREASE_REGION_FREEFORM ||
-        seg->models[pair->high].type == CREASE_REGION_FREEFORM;
-    return pair->links >= LEAST_LINKS && pair->parallel >= smooth_agreement * pair->links &&
-        (form || (sizes[0] < FEW && sizes[1] < FEW)) && is_vague(seg, pair->low) &&
-        is_vague(seg, pair->high);
-}
-
-/* Of two vague regions: joined if one surface explains both to the noise. */
-static void find_vague_gain(merging *run, region_pair *pair, crease_fitter *fitter)
-{
-    crease_sample *const both = &fitter->sample;
-    crease_model_clear(&pair->model);
-    pair->gain = 0.0;
-    if (!is_vague_pair(run, pair))
-        return;
-    both->count = 0;
-    sample_chain(run, pair->low, run->sample, false, both);
-    sample_chain(run, pair->high, run->sample, pair->agreement < 0.0, both);
-    if (crease_fit_choose(
-            fitter, both, CREASE_RULE_AKAIKE, crease_fit_level_for(both->count), NULL, INFINITY) &&
-        fitter->best.chi < 1.0 + 3.0 * sqrt(2.0 / (double)both->count))
-        keep_model(run, pair, &fitter->best, 1.0 / (1.0 + fitter->best.chi));
-}
-
 /* A small region next to one more than twice its size first tries that one's model as it is. */
 static void find_gain(merging *run, region_pair *pair, crease_fitter *fitter)
 {
@@ -310,11 +243,7 @@ static void find_gains(void *user, size_t begin, size_t end, int worker)
     merging *const run = user;
     for (size_t i = begin; i < end; i++) {
         region_pair *const pair = &run->pairs[run->pending[i]];
-        crease_fitter *const fitter = &run->seg->fitters[worker];
-        if (run->vague)
-            find_vague_gain(run, pair, fitter);
-        else
-            find_gain(run, pair, fitter);
+        find_gain(run, pair, &run->seg->fitters[worker]);
     }
 }
 
@@ -493,9 +422,4 @@ crease_status crease_merge_within(crease_segmentation *seg, size_t sample, doubl
 {
     size_t merged;
     return merge(&(merging){.seg = seg, .sample = sample, .tolerance = tolerance}, &merged);
-}
-
-crease_status crease_merge_vague(crease_segmentation *seg, size_t sample, size_t *merged)
-{
-    return merge(&(merging){.seg = seg, .sample = sample, .vague = true}, merged);
 }

@@ -11,6 +11,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+static const double NEAR_AXIS = 0.1; /* of the distance, where nothing lies */
+
 /* Distance along z times the cosine of the slope. */
 static double height_distance(const crease_model *model, const double place[3], double gradient[3])
 {
@@ -27,11 +29,30 @@ static double height_distance(const crease_model *model, const double place[3], 
     return cosine * (z - height);
 }
 
+/* Distance away from the axis times the cosine of the slope. */
+static double round_distance(const crease_model *model, const double place[3], double gradient[3])
+{
+    double d[3], slope[2];
+    for (int c = 0; c < 3; c++)
+        d[c] = place[c] - model->centre[c];
+    const double *const axes = model->axes;
+    const double x = crease_vector_dot(d, axes), y = crease_vector_dot(d, axes + 3);
+    const double z = crease_vector_dot(d, axes + 6), angle = atan2(y, x), away = hypot(x, y);
+    const double height = crease_patch_at(&model->patch, angle, z, slope);
+    const double around = slope[0] / fmax(away, NEAR_AXIS * fabs(height));
+    const double cosine = 1.0 / sqrt(1.0 + around * around + slope[1] * slope[1]);
+    const double u = cos(angle) + around * sin(angle), v = sin(angle) - around * cos(angle);
+    for (int c = 0; c < 3; c++)
+        gradient[c] = cosine * (u * axes[c] + v * axes[3 + c] - slope[1] * axes[6 + c]);
+    return cosine * (away - height);
+}
+
 double crease_model_distance(const crease_model *model, const double place[3], double gradient[3])
 {
-    return model->type == CREASE_REGION_FREEFORM
-        ? height_distance(model, place, gradient)
-        : crease_primitive_distance(model, place, gradient);
+    if (model->type != CREASE_REGION_FREEFORM)
+        return crease_primitive_distance(model, place, gradient);
+    return model->patch.round ? round_distance(model, place, gradient)
+                              : height_distance(model, place, gradient);
 }
 
 double crease_model_variance(const crease_model *model, const double place[3])

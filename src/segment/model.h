@@ -12,11 +12,13 @@
 #include <stdint.h>
 
 /* A height z = f(x, y) over the frame of its model, by the coefficients of a polynomial or of a
- * uniform bicubic B-spline with spans x spans cells. Beyond low..high it goes on linearly. */
+ * uniform bicubic B-spline with spans x spans cells. Beyond low..high it goes on linearly. Or, of a
+ * round one, a distance f(angle, z) from the frame's z axis: always a spline, periodic in the angle
+ * about that axis. */
 typedef struct crease_patch {
-    bool spline;
+    bool spline, round;
     int degree;             /* of the polynomial, 2..4 */
-    int spans;              /* of the spline, 3..16 in both directions */
+    int spans;              /* of the spline, 3..24 in both directions */
     double low[2], high[2]; /* the rectangle of the data */
     double unit[2];         /* polynomial: half the longer side (both); spline: a cell's sides */
     size_t coefficient_count;

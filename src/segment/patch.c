@@ -63,7 +63,9 @@ static void spline_basis(const crease_patch *patch, double x, double y, crease_b
     for (size_t a = 0; a < 4; a++)
         for (size_t b = 0; b < 4; b++) {
             const int n = out->count++;
-            out->index[n] = ((size_t)i + a) * crease_patch_side(patch) + (size_t)j + b;
+            const size_t row = (size_t)i + a, rows = (size_t)patch->spans;
+            out->index[n] =
+                (patch->round ? row % rows : row) * crease_patch_side(patch) + (size_t)j + b;
             out->value[n] = vx[a] * vy[b];
             out->dx[n] = sx[a] * vy[b] / patch->unit[0];
             out->dy[n] = vx[a] * sy[b] / patch->unit[1];
@@ -80,6 +82,8 @@ void crease_patch_basis(const crease_patch *patch, double x, double y, crease_ba
 
 double crease_patch_at(const crease_patch *patch, double x, double y, double slope[2])
 {
+    if (patch->round)
+        x -= patch->high[0] * floor(x / patch->high[0]);
     const double inside[2] = {
         clamp(x, patch->low[0], patch->high[0]), clamp(y, patch->low[1], patch->high[1])};
     crease_basis_at basis;

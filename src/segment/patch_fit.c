@@ -1,23 +1,26 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* Height fields by penalised, reweighted least squares over the plane across the mean normal. The
- * residual that counts is the distance across the surface, so heights weigh by the squared cosine
- * of the slope. */
+/* Height fields by penalised, reweighted least squares over the plane across the mean normal, or
+ * around an axis. The residual that counts is the distance across the surface, so heights weigh by
+ * the squared cosine of the slope. */
 #include "segment/fitter.h"
 
 #include "base/symmetric.h"
 #include "base/vector.h"
 #include "segment/patch.h"
 #include "segment/primitive.h"
+#include "segment/tube.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { ROUNDS = 3, NORMALS_LOOKED_AT = 200 };
+enum { ROUNDS = 3, NORMALS_LOOKED_AT = 200, LEAST_AROUND = 4 };
 
+static const double turn = 6.283185307179586476925;
 static const double steepest_cosine = 0.34; /* 70 degrees: beyond, a height field is no good */
 static const double steep_share = 0.03;     /* of the normals that may be: outliers have any */
+static const double BEYOND = 1.0;           /* spacings that a tube goes on beyond its points */
 static const double bending = 2e-4;         /* weight of the second differences of a spline */
 static const double supported = 0.3; /* sum of a basis function over the points that makes its
                                         coefficient a free parameter */
@@ -84,10 +87,41 @@ static void enter_frame(crease_fitter *fitter, const crease_sample *sample, crea
     }
 }
 
+/* Angle, height and distance from the axis of the points in the frame, and the heights they take.
+ */
+static void enter_tube(crease_fitter *fitter, const crease_sample *sample, crease_model *model)
+{
+    crease_patch *const patch = &model->patch;
+    double away = 0.0, low = INFINITY, high = -INFINITY;
+    enter_frame(fitter, sample, model);
+    for (size_t i = 0; i < sample->count; i++) {
+        double *const local = fitter->local + 3 * i;
+        const double x = local[0], y = local[1], angle = atan2(y, x);
+        local[0] = angle < 0.0 ? angle + turn : angle;
+        local[1] = local[2];
+        local[2] = hypot(x, y);
+        away += local[2] / (double)sample->count;
+        low = fmin(low, local[1]);
+        high = fmax(high, local[1]);
+    }
+    const double beyond = BEYOND * sqrt(turn * away * (high - low) / (double)sample->count);
+    patch->low[0] = 0.0;
+    patch->high[0] = turn;
+    patch->low[1] = low - beyond;
+    patch->high[1] = high + beyond;
+}
+
 /* Half-width of the band of the normal equations. */
 static size_t band_of(const crease_patch *patch)
 {
-    return patch->spline ? 3 * crease_patch_side(patch) + 3 : patch->coefficient_count;
+    return patch->spline && !patch->round ? 3 * crease_patch_side(patch) + 3
+                                          : patch->coefficient_count;
+}
+
+/* Where the lower triangle of a matrix has the entry of a row and a column. */
+static size_t entry(size_t n, size_t row, size_t column)
+{
+    return row > column ? n * row + column : n * column + row;
 }
 
 static void add_points(crease_fitter *fitter, size_t count, const crease_patch *patch)
@@ -102,34 +136,40 @@ static void add_points(crease_fitter *fitter, size_t count, const crease_patch *
         crease_patch_basis(patch, local[0], local[1], &basis);
         for (int r = 0; r < basis.count; r++) {
             const double weighted = fitter->weights[i] * basis.value[r];
-            double *const row = fitter->matrix + n * basis.index[r];
             fitter->right[basis.index[r]] += weighted * local[2];
             fitter->support[basis.index[r]] += basis.value[r];
             for (int c = 0; c <= r; c++)
-                row[basis.index[c]] += weighted * basis.value[c];
+                fitter->matrix[entry(n, basis.index[r], basis.index[c])] +=
+                    weighted * basis.value[c];
         }
     }
 }
 
-/* Adds weight (c[0] - 2 c[step] + c[2 step])^2. */
-static void add_difference(double *matrix, size_t n, size_t first, size_t step, double weight)
+/* Adds weight (a - 2 b + c)^2 for three coefficients. */
+static void add_difference(double *matrix, size_t n, const size_t of[3], double weight)
 {
     static const double share[3] = {1.0, -2.0, 1.0};
     for (size_t r = 0; r < 3; r++)
         for (size_t c = 0; c <= r; c++)
-            matrix[n * (first + r * step) + first + c * step] += weight * share[r] * share[c];
+            matrix[entry(n, of[r], of[c])] += weight * share[r] * share[c];
 }
 
 /* Second differences in both directions, lightly: they define coefficients without data. */
 static void add_penalty(crease_fitter *fitter, size_t count, const crease_patch *patch)
 {
-    const size_t side = crease_patch_side(patch), n = patch->coefficient_count;
+    const size_t side = crease_patch_side(patch), n = patch->coefficient_count, rows = n / side;
+    const size_t ends = patch->round ? 0 : 2; /* rows that no difference begins at */
     const double weight = bending * (double)count / (patch->spans * patch->spans);
-    for (size_t i = 0; i < side; i++)
+    for (size_t i = 0; i < rows; i++)
         for (size_t j = 0; j + 2 < side; j++) {
-            add_difference(fitter->matrix, n, i * side + j, 1, weight);
-            add_difference(fitter->matrix, n, j * side + i, side, weight);
+            const size_t at = i * side + j;
+            add_difference(fitter->matrix, n, (size_t[]){at, at + 1, at + 2}, weight);
         }
+    for (size_t i = 0; i + ends < rows; i++)
+        for (size_t j = 0; j < side; j++)
+            add_difference(fitter->matrix, n,
+                (size_t[]){i * side + j, (i + 1) % rows * side + j, (i + 2) % rows * side + j},
+                weight);
 }
 
 static bool solve(crease_fitter *fitter, const crease_patch *patch)
@@ -150,10 +190,12 @@ static bool solve(crease_fitter *fitter, const crease_patch *patch)
 static void reweight(crease_fitter *fitter, size_t count, const crease_patch *patch)
 {
     double slope[2];
+    const double least = 1e-9 * (patch->high[1] - patch->low[1]);
     for (size_t i = 0; i < count; i++) {
         const double *const local = fitter->local + 3 * i;
         const double value = crease_patch_at(patch, local[0], local[1], slope);
-        const double cosine2 = 1.0 / (1.0 + slope[0] * slope[0] + slope[1] * slope[1]);
+        const double across = patch->round ? slope[0] / fmax(local[2], least) : slope[0];
+        const double cosine2 = 1.0 / (1.0 + across * across + slope[1] * slope[1]);
         fitter->residuals[0][i] = (local[2] - value) * sqrt(cosine2);
         fitter->weights[i] = cosine2;
     }
@@ -200,6 +242,26 @@ bool crease_fit_polynomial(
     patch->coefficient_count = (size_t)((degree + 1) * (degree + 2) / 2);
     patch->unit[0] = patch->unit[1] =
         0.5 * fmax(patch->high[0] - patch->low[0], patch->high[1] - patch->low[1]);
+    return fit(fitter, sample, model);
+}
+
+bool crease_fit_tube(
+    crease_fitter *fitter, const crease_sample *sample, int spans, crease_model *model)
+{
+    double *const coefficients = model->patch.coefficients;
+    *model = (crease_model){.type = CREASE_REGION_FREEFORM};
+    crease_patch *const patch = &model->patch;
+    patch->coefficients = coefficients;
+    if (spans < LEAST_AROUND || !crease_tube_frame(sample, model))
+        return false;
+    enter_tube(fitter, sample, model);
+    if (!(patch->high[1] > patch->low[1]))
+        return false;
+    patch->spline = patch->round = true;
+    patch->spans = spans;
+    patch->coefficient_count = (size_t)spans * crease_patch_side(patch);
+    for (int k = 0; k < 2; k++)
+        patch->unit[k] = (patch->high[k] - patch->low[k]) / spans;
     return fit(fitter, sample, model);
 }
 

@@ -127,23 +127,18 @@ static crease_status join_waves(crease_segmentation *seg)
     return status;
 }
 
-/* Free forms that were found in pieces. Where neighbours err alike the noise would explain too
- * much.
- */
-static crease_status join_pieces(crease_segmentation *seg)
-{
-    size_t merged = 0;
-    if (seg->alike > 1.0)
-        return CREASE_OK;
-    const crease_status status = crease_merge_vague(seg, LARGE_SAMPLE, &merged);
-    return status == CREASE_OK && merged > 0 ? polish(seg) : status;
-}
-
-static crease_status unite(crease_segmentation *seg)
+static crease_status unite(crease_segmentation *seg, bool wide)
 {
     size_t united = 0;
-    const crease_status status = crease_unite(seg, &united);
+    const crease_status status = crease_unite(seg, wide, &united);
     return status == CREASE_OK && united ? polish(seg) : status;
+}
+
+/* Free forms that were found in pieces. Where neighbours err alike the noise would explain too
+ * much. */
+static crease_status join_pieces(crease_segmentation *seg)
+{
+    return seg->alike > 1.0 ? CREASE_OK : unite(seg, false);
 }
 
 static crease_status run_stages(crease_segmentation *seg)
@@ -372,7 +367,7 @@ static crease_status segment(
     if (status == CREASE_OK)
         status = regions->rounded ? run_beside_edges(&seg, regions) : run(&seg);
     if (status == CREASE_OK && options->united)
-        status = unite(&seg);
+        status = unite(&seg, true);
     if (status == CREASE_OK)
         status = take_models(context, regions, &seg);
     for (size_t r = 0; r < seg.region_count; r++)

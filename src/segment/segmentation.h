@@ -96,9 +96,6 @@ crease_status crease_merge(crease_segmentation *seg, size_t sample, size_t large
 /* Joins neighbouring regions on each of which one simple model leaves a mean square residual within
  * the tolerance, in square sigmas. */
 crease_status crease_merge_within(crease_segmentation *seg, size_t sample, double tolerance);
-/* Joins regions of no definite kind, such as two pieces of a free form, that go on smoothly from
- * one to the other and that one surface explains to the noise. */
-crease_status crease_merge_vague(crease_segmentation *seg, size_t sample, size_t *merged);
 /* Gives every point the label that its distances and its neighbours favour. *changed: labels. */
 crease_status crease_relabel(crease_segmentation *seg, int rounds, size_t *changed);
 /* Fits the models to their regions' interiors again. */
@@ -110,9 +107,10 @@ crease_status crease_refit_freeforms(crease_segmentation *seg);
 crease_status crease_reconsider(crease_segmentation *seg, size_t *changed);
 /* Gives up regions whose points their neighbours explain nearly as well, and those too small. */
 crease_status crease_give_up(crease_segmentation *seg, size_t *dropped);
-/* Joins regions that meet without an angle where one free form explains both to the noise. *united:
- * how many were joined away. */
-crease_status crease_unite(crease_segmentation *seg, size_t *united);
+/* Joins regions that meet without an angle where one free form explains both to the noise: of any
+ * kind, or, unless wide, pieces of free forms and what the description is shorter without.
+ * *united: how many were joined away. */
+crease_status crease_unite(crease_segmentation *seg, bool wide, size_t *united);
 /* Estimates sigma again, from residuals deep inside regions. */
 crease_status crease_measure_noise(crease_segmentation *seg);
 

@@ -532,6 +532,69 @@ static void free_forms_are_followed_to_the_noise(void **state)
     end(&bench);
 }
 
+/* A tube whose distance from its axis varies, in the frame of given_model, and its normals. */
+static void fill_tube(crease_sample *sample, size_t count, double sigma)
+{
+    const crease_model frame = given_model(CREASE_REGION_CYLINDER);
+    sample->count = count;
+    memcpy(sample->origin, frame.centre, sizeof sample->origin);
+    for (size_t i = 0; i < count; i++) {
+        const double u = 6.283185307179586 * crease_random_uniform(6, 1, i);
+        const double z = crease_random_uniform(6, 2, i) - 0.5, r = 0.5 + 0.1 * cos(2 * u + z);
+        const double around = -0.2 * sin(2 * u + z) / r, up = -0.1 * sin(2 * u + z);
+        const double off = r + sigma * crease_random_normal(6, 3, i);
+        const double place[3] = {off * cos(u), off * sin(u), z};
+        double normal[3] = {cos(u) + around * sin(u), sin(u) - around * cos(u), -up};
+        crease_vector_normalise(normal);
+        for (size_t c = 0; c < 3; c++) {
+            sample->points[3 * i + c] = sample->normals[3 * i + c] = 0.0;
+            for (size_t k = 0; k < 3; k++) {
+                sample->points[3 * i + c] += place[k] * frame.axes[3 * k + c];
+                sample->normals[3 * i + c] += normal[k] * frame.axes[3 * k + c];
+            }
+        }
+    }
+}
+
+static void tubes_are_heights_about_their_axis(void **state)
+{
+    struct bench bench = given_fitter(0.002);
+    crease_fitter *const fitter = &bench.fitters[0];
+    fill_tube(&fitter->sample, 4000, 0.002);
+    const crease_model warm = {
+        .type = CREASE_REGION_FREEFORM, .patch = {.spline = true, .spans = 8}};
+    assert_true(crease_fit_choose(
+        fitter, &fitter->sample, CREASE_RULE_AKAIKE, CREASE_LEVEL_ALL, &warm, INFINITY));
+    const crease_model *const tube = &fitter->best;
+    assert_int_equal(tube->type, CREASE_REGION_FREEFORM);
+    assert_true(tube->patch.round);
+    assert_true(tube->chi < 1.1);
+    for (size_t i = 0; i < 40; i++) {
+        double place[3], gradient[3], to[3], there[3];
+        for (size_t c = 0; c < 3; c++)
+            place[c] = fitter->sample.points[300 * i % 12000 + c] + fitter->sample.origin[c];
+        const double from = crease_model_distance(tube, place, gradient);
+        assert_true(fabs(from) < 0.012);
+        assert_near(crease_vector_length(gradient), 1, 1e-14);
+        assert_true(crease_vector_dot(gradient, fitter->sample.normals + 300 * i % 12000) > 0.99);
+        for (int c = 0; c < 3; c++)
+            to[c] = place[c] + 1e-4 * gradient[c];
+        assert_near(crease_model_distance(tube, to, there) - from, 1e-4, 2e-6);
+    }
+    end(&bench);
+}
+
+static void sheets_are_no_tubes(void **state)
+{
+    struct bench bench = given_fitter(0.005);
+    crease_fitter *const fitter = &bench.fitters[0];
+    fill_heights(&fitter->sample, waves, 1000, 0.005);
+    assert_false(crease_fit_tube(fitter, &fitter->sample, 6, &fitter->trial));
+    fill_tube(&fitter->sample, 1000, 0);
+    assert_false(crease_fit_tube(fitter, &fitter->sample, 3, &fitter->trial));
+    end(&bench);
+}
+
 /* Where the surface bends within the size of its points, the polynomial's basis is that of its own
  * definition: derivatives against differences. */
 static void bases_have_the_slopes_of_their_values(void **state)
@@ -539,16 +602,18 @@ static void bases_have_the_slopes_of_their_values(void **state)
     double coefficients[CREASE_PATCH_COEFFICIENTS];
     for (size_t k = 0; k < CREASE_PATCH_COEFFICIENTS; k++)
         coefficients[k] = crease_random_normal(2, 0, k);
-    for (int spline = 0; spline < 2; spline++) {
-        const crease_patch patch = {.spline = spline == 1,
+    for (int spline = 0; spline < 3; spline++) {
+        const double low = spline == 2 ? 0 : -1;
+        const crease_patch patch = {.spline = spline > 0,
+            .round = spline == 2,
             .degree = 4,
             .spans = 5,
-            .low = {-1, -2},
-            .high = {3, 2},
+            .low = {low, -2},
+            .high = {low + 4, 2},
             .unit = {spline ? 4 / 5.0 : 2, spline ? 4 / 5.0 : 2},
             .coefficients = coefficients};
         for (uint64_t i = 0; i < 40; i++) {
-            const double x = -1 + 4 * crease_random_uniform(2, 1, i), h = 1e-6;
+            const double x = low + 4 * crease_random_uniform(2, 1, i), h = 1e-6;
             const double y = -2 + 4 * crease_random_uniform(2, 2, i);
             double slope[2], unused[2];
             crease_patch_at(&patch, x, y, slope);
@@ -580,6 +645,8 @@ int main(void)
         cmocka_unit_test(the_kind_of_surface_is_recognised),
         cmocka_unit_test(heights_of_degree_two_are_exact_and_go_on),
         cmocka_unit_test(free_forms_are_followed_to_the_noise),
+        cmocka_unit_test(tubes_are_heights_about_their_axis),
+        cmocka_unit_test(sheets_are_no_tubes),
         cmocka_unit_test(bases_have_the_slopes_of_their_values),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
