@@ -3,7 +3,11 @@
 
 #include "fit/draft.h"
 
+#include "base/memory.h"
+
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { FEW_UNKNOWNS = 128, FEW_POINTS = 1000, MORE_ROUNDS = 3, PLACES = 32 };
 
@@ -88,39 +92,68 @@ static int weights(const crease_draft *draft)
     return draft->system.multigrid ? CREASE_LAMBDAS - 1 : CREASE_LAMBDAS;
 }
 
+/* What a choice has found so far. */
+typedef struct selection {
+    double score, mean, freedom;
+    int number;
+    double *coefficients; /* where solving again takes long, else NULL */
+} selection;
+
 static crease_status try_number(
-    crease_context *context, crease_draft *draft, int number, double *best, int *taken)
+    crease_context *context, crease_draft *draft, int number, selection *best)
 {
     const crease_status status = try_lambda(context, draft, LAMBDAS[number]);
-    if (draft->score < *best) {
-        *best = draft->score;
-        *taken = number;
-    }
-    return status;
+    if (status != CREASE_OK || !(draft->score < best->score))
+        return status;
+    best->score = draft->score;
+    best->mean = draft->mean;
+    best->freedom = draft->freedom;
+    best->number = number;
+    if (best->coefficients)
+        memcpy(best->coefficients, draft->height.coefficients,
+            draft->system.size * sizeof *best->coefficients);
+    return CREASE_OK;
 }
 
 /* The best of all bending weights. */
-static crease_status choose_of_all(
-    crease_context *context, crease_draft *draft, double *best, int *taken)
+static crease_status choose_of_all(crease_context *context, crease_draft *draft, selection *best)
 {
     crease_status status = CREASE_OK;
     for (int i = 0; i < weights(draft) && status == CREASE_OK; i++)
-        status = try_number(context, draft, i, best, taken);
+        status = try_number(context, draft, i, best);
     return status;
 }
 
-/* From the one last taken upwards, and downwards, as long as it gets better. */
-static crease_status choose_near(
-    crease_context *context, crease_draft *draft, double *best, int *taken)
+double crease_draft_stiffness(const crease_draft *draft)
 {
-    const int start = draft->lambda < weights(draft) ? draft->lambda : weights(draft) - 1;
-    crease_status status = try_number(context, draft, start, best, taken);
-    for (int i = start + 1;
-         i < weights(draft) && (*taken == i - 1 || !(*best < INFINITY)) && status == CREASE_OK; i++)
-        status = try_number(context, draft, i, best, taken);
-    const int from = *taken == start ? start - 1 : -1;
-    for (int i = from; i >= 0 && status == CREASE_OK && (i == from || *taken == i + 1); i--)
-        status = try_number(context, draft, i, best, taken);
+    const crease_system *const system = &draft->system;
+    return system->lambda * crease_stencil_trace(&system->normal) / system->traces[0];
+}
+
+/* The weight to begin with: the one last taken, or what a stiffness comes to, if that is more. */
+static int first_number(const crease_draft *draft)
+{
+    const crease_system *const system = &draft->system;
+    const double lambda =
+        draft->stiffness * system->traces[0] / crease_stencil_trace(&system->normal);
+    int number = draft->lambda;
+    while (number + 1 < weights(draft) && LAMBDAS[number + 1] <= lambda)
+        number++;
+    return number < weights(draft) ? number : weights(draft) - 1;
+}
+
+/* From the one last taken upwards, and downwards, as long as it gets better. */
+static crease_status choose_near(crease_context *context, crease_draft *draft, selection *best)
+{
+    const int start = first_number(draft);
+    crease_status status = try_number(context, draft, start, best);
+    for (int i = start + 1; i < weights(draft) &&
+         (best->number == i - 1 || !(best->score < INFINITY)) && status == CREASE_OK;
+         i++)
+        status = try_number(context, draft, i, best);
+    const int from = best->number == start ? start - 1 : -1;
+    for (int i = from; i >= 0 && status == CREASE_OK && (i == from || best->number == i + 1); i--)
+        status = try_number(context, draft, i, best);
     return status;
 }
 
@@ -132,16 +165,36 @@ static crease_status not_determined(crease_context *context, const crease_draft 
         draft->system.size);
 }
 
+/* Leaves the best solution in the draft. */
+static crease_status take_best(crease_context *context, crease_draft *draft, const selection *best)
+{
+    draft->lambda = best->number;
+    if (draft->system.lambda == LAMBDAS[best->number])
+        return CREASE_OK;
+    if (!best->coefficients || !(best->score < INFINITY))
+        return try_lambda(context, draft, LAMBDAS[best->number]);
+    draft->score = best->score;
+    draft->mean = best->mean;
+    draft->freedom = best->freedom;
+    memcpy(draft->height.coefficients, best->coefficients,
+        draft->system.size * sizeof *best->coefficients);
+    return crease_samples_measure(context, draft->samples, &draft->height);
+}
+
 /* Leaves the solution with the best bending weight in the draft. */
 static crease_status choose_lambda(crease_context *context, crease_draft *draft, bool all)
 {
-    double best = INFINITY;
-    int taken = draft->lambda;
-    crease_status status = all ? choose_of_all(context, draft, &best, &taken)
-                               : choose_near(context, draft, &best, &taken);
-    draft->lambda = taken;
-    if (status == CREASE_OK && draft->system.lambda != LAMBDAS[taken])
-        status = try_lambda(context, draft, LAMBDAS[taken]);
+    selection best = {.score = INFINITY, .number = draft->lambda};
+    if (draft->system.multigrid) {
+        best.coefficients = crease_allocate(context, draft->system.size, sizeof(double));
+        if (!best.coefficients)
+            return CREASE_ERROR_NO_MEMORY;
+    }
+    crease_status status =
+        all ? choose_of_all(context, draft, &best) : choose_near(context, draft, &best);
+    if (status == CREASE_OK)
+        status = take_best(context, draft, &best);
+    free(best.coefficients);
     if (status == CREASE_OK && !(draft->score < INFINITY))
         status = not_determined(context, draft);
     return status;
@@ -185,8 +238,8 @@ static crease_status fit_round(
     crease_context *context, crease_draft *draft, int round, bool last, crease_choice choice)
 {
     crease_status status = CREASE_OK;
-    double scale = draft->scale > 0.0 ? draft->scale : FIRST_SCALE * draft->samples->range;
-    if (round > 0) {
+    double scale = FIRST_SCALE * draft->samples->range;
+    if (round > 0 || draft->begun) {
         scale = crease_samples_scale(draft->samples);
         crease_samples_reweigh(draft->samples, scale, draft->redescending);
     }
@@ -226,6 +279,8 @@ crease_status crease_draft_fit(
     crease_context *context, crease_draft *draft, int rounds, crease_choice choice)
 {
     crease_gaps gaps = {.empty = 0};
+    crease_height before = draft->height;
+    draft->height = (crease_height){0};
     crease_draft_free(draft);
     crease_status status = crease_gaps_create(context, draft->samples, &draft->layout, &gaps);
     if (status == CREASE_OK)
@@ -233,8 +288,26 @@ crease_status crease_draft_fit(
     if (status == CREASE_OK)
         status = crease_system_create(context, &draft->height, 1, &gaps, &draft->system);
     crease_gaps_free(&gaps);
+    if (status == CREASE_OK && draft->begun && before.coefficients && draft->system.multigrid)
+        crease_height_resemble(&before, &draft->height);
+    crease_height_free(&before);
     const int times = draft->samples->count <= FEW_POINTS ? MORE_ROUNDS * rounds : rounds;
     for (int round = 0; round < times && status == CREASE_OK; round++)
         status = fit_round(context, draft, round, round == times - 1, choice);
+    draft->begun = false;
     return status;
+}
+
+crease_status crease_draft_begin(crease_context *context, crease_draft *draft,
+    const crease_height *height, const crease_layout *layout)
+{
+    const crease_layout below = *layout; /* perhaps the draft's own, whose ends now move */
+    crease_draft_place(draft);
+    draft->begun = true;
+    return crease_samples_project(context, draft->samples, height, &below);
+}
+
+crease_status crease_draft_fit_again(crease_context *context, crease_draft *draft)
+{
+    return fit_round(context, draft, 1, true, CREASE_CHOICE_NONE);
 }

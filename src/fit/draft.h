@@ -28,7 +28,9 @@ typedef struct crease_draft {
     int lambda;          /* number of the one taken */
     bool orthogonal;     /* minimise true distances, not vertical ones */
     bool redescending;   /* forget outliers */
-    double scale;        /* standard deviation of the points, when it is known before; else 0 */
+    double stiffness;    /* weight of the bending, in absolute numbers, to try first; else 0 */
+    bool begun;          /* the samples have feet and distances to begin the next fit with */
+    bool warm;           /* the points are many: fits begin from what is known */
     double mean;         /* mean distance of the points */
     double freedom;      /* effective number of parameters */
     double score;        /* to compare drafts: the lower, the better */
@@ -46,6 +48,14 @@ void crease_draft_place(crease_draft *draft);
  * Errors: NUMERIC, NO_MEMORY, CANCELLED. */
 crease_status crease_draft_fit(
     crease_context *context, crease_draft *draft, int rounds, crease_choice choice);
+/* Places the samples and finds their feet on a height much like the one to come, the draft's own
+ * perhaps: the next fit takes its planes and weights from there. Errors: CANCELLED. */
+crease_status crease_draft_begin(crease_context *context, crease_draft *draft,
+    const crease_height *height, const crease_layout *layout);
+/* The bending weight of the fit at hand, in absolute numbers. */
+double crease_draft_stiffness(const crease_draft *draft);
+/* One round more of the fit at hand. Errors: as crease_draft_fit(). */
+crease_status crease_draft_fit_again(crease_context *context, crease_draft *draft);
 /* Whether the height stays near the points': within once their range above and below. */
 bool crease_draft_bounded(const crease_draft *draft);
 /* Frees what the draft owns. */

@@ -10,6 +10,7 @@
 #include "averaging/orient.h"
 #include "base/memory.h"
 #include "base/vector.h"
+#include "fit/closest.h"
 #include "fit/curved.h"
 #include "fit/explore.h"
 #include "fit/isolate.h"
@@ -22,7 +23,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_EXPLORED = 10000, MOST_ROWS = 2048, LEAST_POINTS = 6, MOST_FOR_GAPS = 7 };
+/* Mean distances of two fits of which one serves the other: in shares. */
+static const double ALIKE = 0.98;
+static const double EXACT = 1e-9; /* mean distance, in spacings */
+
+enum {
+    MOST_EXPLORED = 10000,
+    MOST_REFINED = 50000,
+    MOST_ROWS = 2048,
+    LEAST_POINTS = 6,
+    MOST_FOR_GAPS = 7
+};
 
 typedef struct work {
     const crease_sheet_options *options;
@@ -177,10 +188,12 @@ static crease_status hold_back(crease_context *context, work *w)
     return status;
 }
 
-/* The large net that was asked for, with the creases of a smaller one. */
+/* The large net that was asked for, with the creases of a smaller one, from whose feet and
+ * distances it begins. */
 static crease_status enlarge(crease_context *context, work *w)
 {
     crease_draft *const draft = &w->draft;
+    const crease_layout before = draft->layout;
     memcpy(w->bounds.net, w->options->net, sizeof w->bounds.net);
     for (int d = 0; d < 2; d++) {
         crease_layout_axis *const axis = &draft->layout.axis[d];
@@ -193,31 +206,64 @@ static crease_status enlarge(crease_context *context, work *w)
     }
     crease_explore_keep_net(&draft->layout, &w->bounds);
     draft->lambda = CREASE_LAMBDAS / 2;
-    draft->scale = crease_samples_scale(draft->samples);
-    draft->redescending = draft->orthogonal = false;
-    crease_draft_place(draft);
-    crease_status status = crease_draft_fit(context, draft, 2, CREASE_CHOICE_NEAR);
-    draft->scale = crease_samples_scale(draft->samples);
-    draft->redescending = draft->orthogonal = true;
+    draft->stiffness = crease_draft_stiffness(draft);
+    const double mean = draft->mean;
+    crease_status status = crease_draft_begin(context, draft, &draft->height, &before);
+    /* where the small net is exact no weight is better than another */
+    const bool exact = mean <= EXACT * draft->samples->spacing;
     if (status == CREASE_OK)
-        status = crease_draft_fit(context, draft, 2, CREASE_CHOICE_NONE);
+        status =
+            crease_draft_fit(context, draft, 1, exact ? CREASE_CHOICE_NONE : CREASE_CHOICE_NEAR);
+    if (status == CREASE_OK && !exact &&
+        !(draft->mean > ALIKE * mean)) /* feet and weights are others now */
+        status = crease_draft_fit_again(context, draft);
     return status == CREASE_OK ? hold_back(context, w) : status;
 }
 
-/* The final fit, on all points. */
-static crease_status finish(crease_context *context, work *w, crease_samples *samples)
+/* The fit of every step-th point, with the lines where these say. */
+static crease_status settle(
+    crease_context *context, work *w, size_t step, int steps, crease_samples *samples)
 {
     const bool turn = w->options->orientation == CREASE_ORIENTATION_AUTOMATIC;
-    crease_status status = draft_samples(context, w, 1, samples);
+    crease_status status = draft_samples(context, w, step, samples);
     if (status == CREASE_OK)
         status = crease_draft_fit(context, &w->draft, 3, CREASE_CHOICE_NEAR);
     w->draft.redescending = w->draft.orthogonal = true;
     if (status == CREASE_OK)
         status = crease_draft_fit(context, &w->draft, 4, CREASE_CHOICE_NONE);
     if (status == CREASE_OK)
-        status = crease_lines_refine(context, &w->draft, w->count > MOST_EXPLORED ? 2 : 8, turn);
+        status = crease_lines_refine(context, &w->draft, steps, turn);
+    return status == CREASE_OK ? hold_back(context, w) : status;
+}
+
+/* From the fit of some of the points to that of all: one round, one step of the lines, and another
+ * round when that was worth it. */
+static crease_status take_all(crease_context *context, work *w, crease_samples *samples)
+{
+    crease_draft *const draft = &w->draft;
+    const crease_layout before = draft->layout;
+    const bool turn = w->options->orientation == CREASE_ORIENTATION_AUTOMATIC;
+    crease_status status = draft_samples(context, w, 1, samples);
+    draft->warm = true;
     if (status == CREASE_OK)
-        status = hold_back(context, w);
+        status = crease_draft_begin(context, draft, &draft->height, &before);
+    if (status == CREASE_OK)
+        status = crease_draft_fit(context, draft, 1, CREASE_CHOICE_NONE);
+    if (status == CREASE_OK)
+        status = crease_lines_refine(context, draft, 1, turn);
+    return status;
+}
+
+/* The final fit, on all points. */
+static crease_status finish(crease_context *context, work *w, crease_samples *samples)
+{
+    crease_samples some = {0};
+    const size_t step = (w->count + MOST_REFINED - 1) / MOST_REFINED;
+    crease_status status = settle(context, w, step, w->count > MOST_EXPLORED && step == 1 ? 2 : 8,
+        step > 1 ? &some : samples);
+    if (status == CREASE_OK && step > 1)
+        status = take_all(context, w, samples);
+    crease_samples_free(&some);
     if (status == CREASE_OK)
         status = crease_lines_errors(context, &w->draft, w->errors);
     if (status == CREASE_OK && w->large)
@@ -249,7 +295,8 @@ static crease_status describe_lines(crease_context *context, work *w)
     return CREASE_OK;
 }
 
-static crease_status project(crease_context *context, work *w)
+/* draft: that the sheet was made from, or NULL. */
+static crease_status project(crease_context *context, work *w, const crease_draft *draft)
 {
     crease_sheet *const sheet = w->sheet;
     crease_foot *feet = crease_allocate(context, w->count, sizeof *feet);
@@ -258,7 +305,9 @@ static crease_status project(crease_context *context, work *w)
     crease_status status =
         feet && sheet->projected && sheet->deviations ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
     if (status == CREASE_OK)
-        status = crease_surface_project(context, sheet->surface, w->points, w->count, feet);
+        status = draft ? crease_closest_feet(context, &draft->height, &draft->layout, &draft->frame,
+                             sheet->surface, w->points, w->count, feet)
+                       : crease_surface_project(context, sheet->surface, w->points, w->count, feet);
     for (size_t i = 0; i < w->count && status == CREASE_OK; i++) {
         memcpy(sheet->projected + 3 * i, feet[i].point, sizeof feet[i].point);
         sheet->deviations[i] = feet[i].distance;
@@ -277,7 +326,7 @@ static crease_status try_curved(crease_context *context, const crease_cloud *clo
     crease_status status = crease_curved_fit(context, cloud, o, &w->sheet);
     if (status == CREASE_OK && w->sheet) {
         w->sheet->point_count = w->count;
-        status = project(context, w);
+        status = project(context, w, NULL);
     }
     return status;
 }
@@ -303,7 +352,7 @@ static crease_status run(crease_context *context, work *w)
     if (status == CREASE_OK)
         status = describe_lines(context, w);
     if (status == CREASE_OK)
-        status = project(context, w);
+        status = project(context, w, &w->draft);
     crease_samples_free(&all);
     return status;
 }

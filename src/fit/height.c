@@ -111,3 +111,25 @@ crease_status crease_height_surface(crease_context *context, const crease_height
     free(places);
     return status;
 }
+
+/* Where control point i of a direction stands, see crease_knots_greville(). */
+static double place_of(const crease_height *height, int direction, size_t i)
+{
+    const size_t degree = (size_t)height->order - 1;
+    double sum = 0.0;
+    for (size_t k = 1; k <= degree; k++)
+        sum += height->knots[direction][i + k];
+    return sum / (double)degree;
+}
+
+void crease_height_resemble(const crease_height *other, crease_height *height)
+{
+    const crease_side sides[2] = {CREASE_SIDE_RIGHT, CREASE_SIDE_RIGHT};
+    for (size_t i = 0, k = 0; i < height->count[0]; i++)
+        for (size_t j = 0; j < height->count[1]; j++, k++) {
+            const double uv[2] = {place_of(height, 0, i), place_of(height, 1, j)};
+            double f[3];
+            crease_height_at(other, uv, sides, 0, f);
+            height->coefficients[k] = f[0];
+        }
+}

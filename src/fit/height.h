@@ -22,6 +22,10 @@ crease_status crease_height_create(
     crease_context *context, const crease_layout *layout, crease_height *out);
 void crease_height_free(crease_height *height);
 
+/* Makes the height much like another over the same domain, exactly when that is linear.
+ * Based on: Schoenberg. On spline functions. 1967 (variation diminishing approximation). */
+void crease_height_resemble(const crease_height *other, crease_height *height);
+
 /* The functions that are not zero at a place, first[d] .. first[d] + order - 1 along each
  * direction, and their values and, when asked for, first derivatives. */
 typedef struct crease_support {

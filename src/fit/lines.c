@@ -230,6 +230,19 @@ static bool moved(
     return true;
 }
 
+/* Fits a draft, one much like it being at hand. */
+static crease_status fit_like(
+    crease_context *context, const crease_draft *like, crease_draft *draft, crease_choice choice)
+{
+    if (like->warm) {
+        const crease_status status =
+            crease_draft_begin(context, draft, &like->height, &like->layout);
+        return status == CREASE_OK ? crease_draft_fit(context, draft, 1, choice) : status;
+    }
+    crease_draft_place(draft);
+    return crease_draft_fit(context, draft, draft->orthogonal ? 4 : 3, choice);
+}
+
 /* Takes the largest of 1, 1/2, 1/4 .. of the step that brings a gain worth a trial; else the draft
  * stays. */
 static crease_status walk(
@@ -243,9 +256,7 @@ static crease_status walk(
         crease_draft trial;
         if (!moved(draft, step, share, turn, &trial))
             continue;
-        crease_draft_place(&trial);
-        const crease_status status =
-            crease_draft_fit(context, &trial, draft->orthogonal ? 4 : 3, CREASE_CHOICE_NONE);
+        const crease_status status = fit_like(context, draft, &trial, CREASE_CHOICE_NONE);
         if (status == CREASE_OK && trial.mean < least &&
             (!bounded || crease_draft_bounded(&trial))) {
             crease_draft_free(draft);
@@ -267,20 +278,20 @@ crease_status crease_lines_refine(
         return CREASE_OK;
     const double exact = fmax(4.0 * draft->samples->rounding, EXACT * draft->samples->spacing);
     crease_status status = CREASE_OK;
-    bool gained = true;
-    for (int i = 0; i < steps && gained && status == CREASE_OK; i++) {
+    bool gained = true, tried = false; /* tried: the samples are those of a trial */
+    for (int i = 0; i < steps && gained && draft->mean > exact && status == CREASE_OK; i++) {
         equations e;
         double step[MOST];
         gained = false;
         status = build(context, draft, turn, &e);
-        if (status == CREASE_OK && solve(&e, step) && draft->mean > exact)
+        if (status == CREASE_OK && solve(&e, step)) {
             status = walk(context, draft, step, turn, &gained);
+            tried = !gained;
+        }
     }
-    if (status == CREASE_OK) {
-        crease_draft_place(draft);
-        status = crease_draft_fit(context, draft, draft->orthogonal ? 4 : 3,
-            draft->orthogonal ? CREASE_CHOICE_NONE : CREASE_CHOICE_NEAR);
-    }
+    if (status == CREASE_OK && (tried || !draft->warm))
+        status = fit_like(
+            context, draft, draft, draft->orthogonal ? CREASE_CHOICE_NONE : CREASE_CHOICE_NEAR);
     return status;
 }
 

@@ -17,6 +17,9 @@ enum { GRAIN = 16384, FOOT_STEPS = 3, MANY = 65536 };
 
 /* Of an outlier: next to nothing, but where there are only outliers they must do. */
 static const double LEAST_WEIGHT = 1e-7;
+/* In spacings: a foot that would move by less is there; the plane that touches the sheet is as true
+ * as the square of that. */
+static const double SMALL_STEP = 1e-5;
 
 static crease_status allocate_all(crease_context *context, crease_samples *s)
 {
@@ -143,9 +146,18 @@ static void step_to_foot(const double *point, const double f[3], double *uv)
     uv[1] += (a * q - b * p) / determinant;
 }
 
-static void find_foot(const work *w, const double *point, double *uv, double *target, double *tilt)
+/* Whether a step leads nowhere else. */
+static bool arrived(const work *w, const double from[2], const double to[2])
 {
-    double interval[2][2], f[3];
+    const double least = SMALL_STEP * w->samples->spacing;
+    return fabs(to[0] - from[0]) <= least && fabs(to[1] - from[1]) <= least;
+}
+
+static void find_foot(const work *w, size_t i)
+{
+    crease_samples *const s = w->samples;
+    const double *const point = s->points + 3 * i;
+    double *const uv = s->uv + 2 * i, interval[2][2], f[3];
     for (int d = 0; d < 2; d++)
         crease_layout_between(w->layout, d, point[d], interval[d]);
     hold(uv, interval);
@@ -154,22 +166,26 @@ static void find_foot(const work *w, const double *point, double *uv, double *ta
         for (int d = 0; d < 2; d++)
             sides[d] = uv[d] < interval[d][1] ? CREASE_SIDE_RIGHT : CREASE_SIDE_LEFT;
         crease_height_at(w->height, uv, sides, 1, f);
-        if (step < FOOT_STEPS) {
-            step_to_foot(point, f, uv);
-            hold(uv, interval);
-        }
+        if (step == FOOT_STEPS)
+            break;
+        double next[2] = {uv[0], uv[1]};
+        step_to_foot(point, f, next);
+        hold(next, interval);
+        if (arrived(w, uv, next))
+            break;
+        memcpy(uv, next, sizeof next);
     }
-    *target = point[2] - f[1] * (point[0] - uv[0]) - f[2] * (point[1] - uv[1]);
-    *tilt = 1.0 / sqrt(1.0 + f[1] * f[1] + f[2] * f[2]);
+    s->target[i] = point[2] - f[1] * (point[0] - uv[0]) - f[2] * (point[1] - uv[1]);
+    s->tilt[i] = 1.0 / sqrt(1.0 + f[1] * f[1] + f[2] * f[2]);
+    s->residual[i] = s->tilt[i] * (s->target[i] - f[0]);
 }
 
 static void project_some(void *user, size_t begin, size_t end, int worker)
 {
     (void)worker;
     const work *const w = user;
-    crease_samples *const s = w->samples;
     for (size_t i = begin; i < end; i++)
-        find_foot(w, s->points + 3 * i, s->uv + 2 * i, &s->target[i], &s->tilt[i]);
+        find_foot(w, i);
 }
 
 crease_status crease_samples_project(crease_context *context, crease_samples *samples,

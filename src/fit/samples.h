@@ -38,7 +38,7 @@ void crease_samples_place(
 
 /* Moves each foot to the nearest place of the sheet, within the smooth part of it that lies below
  * the point, and aims at the plane that touches the sheet there, so that the next fit minimises
- * true distances.
+ * true distances. Measures the distances, too.
  * Based on: Wang, Pottmann, Liu. Fitting B-spline curves to point clouds by curvature-based squared
  * distance minimization. 2006 (section 2, tangent distance). */
 crease_status crease_samples_project(crease_context *context, crease_samples *samples,

@@ -124,6 +124,7 @@ void crease_system_clear(crease_system *system)
     const size_t besides = system->multigrid ? system->probe_count : 0;
     memset(system->right, 0, system->size * (system->sides + besides) * sizeof *system->right);
     system->added = 0;
+    system->carried = false;
     memset(system->squares, 0, system->sides * sizeof *system->squares);
 }
 
@@ -140,6 +141,7 @@ crease_status crease_system_add(crease_context *context, crease_system *system,
     all.probes = system->multigrid ? system->probe_count : 0;
     all.first = system->added;
     system->added += all.count;
+    system->carried = false;
     return crease_assemble(context, height, &all, &system->normal, system->right);
 }
 
@@ -153,8 +155,10 @@ crease_status crease_system_factor(
         system->gaps.empty ? fmax(system->hold, least * all / system->traces[1]) : 0.0;
     system->lambda = lambda;
     if (system->multigrid) {
-        const crease_status status =
-            crease_multigrid_coarsen(context, system->multigrid, &system->normal);
+        const crease_status status = system->carried
+            ? CREASE_OK
+            : crease_multigrid_coarsen(context, system->multigrid, &system->normal);
+        system->carried = status == CREASE_OK;
         return status == CREASE_OK
             ? crease_multigrid_weigh(context, system->multigrid, share, hold, solvable)
             : status;

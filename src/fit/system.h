@@ -39,6 +39,7 @@ typedef struct crease_system {
     double *permuted;     /* band: sides in its order; NULL where that is ours */
 
     crease_multigrid *multigrid; /* NULL: band */
+    bool carried;                /* its coarser nets have the sum */
 } crease_system;
 
 /* Makes room for `sides` right sides. Of the height only the knots are looked at; the gaps are

@@ -15,13 +15,46 @@ double crease_basis_clamp(const double *knots, int order, size_t count, double t
     return t < first ? first : (t > last ? last : t);
 }
 
+static bool is_below(double knot, double t, bool equal)
+{
+    return knot < t || (equal && knot == t);
+}
+
+/* The index that t would have among knots that are spread evenly. */
+static size_t guess_index(const double *knots, size_t low, size_t high, double t)
+{
+    const double share = (t - knots[low]) / (knots[high] - knots[low]);
+    const double guess = share * (double)(high - low);
+    return guess > 0.0 && guess < (double)(high - low) ? low + (size_t)guess : low;
+}
+
 /* The largest index in low..high - 1 whose knot is below t (or equal, when `equal`), given that
- * this holds at low. */
+ * this holds at low. Looked for in growing steps from the guess, then by halving. */
 static size_t last_knot_below(const double *knots, size_t low, size_t high, double t, bool equal)
 {
+    const size_t guess = guess_index(knots, low, high, t);
+    if (is_below(knots[guess], t, equal)) {
+        low = guess;
+        for (size_t step = 1; high - low > step; step *= 2) {
+            if (!is_below(knots[low + step], t, equal)) {
+                high = low + step;
+                break;
+            }
+            low += step;
+        }
+    } else {
+        high = guess;
+        for (size_t step = 1; high - low > step; step *= 2) {
+            if (is_below(knots[high - step], t, equal)) {
+                low = high - step;
+                break;
+            }
+            high -= step;
+        }
+    }
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
-        if (knots[middle] < t || (equal && knots[middle] == t))
+        if (is_below(knots[middle], t, equal))
             low = middle;
         else
             high = middle;
@@ -87,14 +120,16 @@ static void differentiate(const double *knots, size_t span, size_t j, double *va
 void crease_basis_derivatives(
     const double *knots, int order, size_t span, double t, int derivatives, double *out)
 {
-    const size_t size = (size_t)order;
-    memset(out, 0, ((size_t)derivatives + 1) * size * sizeof *out);
-    for (size_t d = 0; d <= (size_t)derivatives && d < size; d++) {
-        double *const row = out + d * size;
-        row[0] = 1.0;
-        for (size_t j = 1; j < size - d; j++)
-            raise_order(knots, span, t, j, row);
-        for (size_t j = size - d; j < size; j++)
-            differentiate(knots, span, j, row);
+    const size_t size = (size_t)order, rows = (size_t)derivatives + 1;
+    double values[CREASE_ORDER_MAX] = {1.0};
+    memset(out, 0, rows * size * sizeof *out);
+    for (size_t j = 1; j <= size; j++) { /* the values are those of order j */
+        if (size - j < rows)
+            memcpy(out + (size - j) * size, values, j * sizeof *out);
+        if (j < size)
+            raise_order(knots, span, t, j, values);
     }
+    for (size_t d = 1; d < rows && d < size; d++)
+        for (size_t j = size - d; j < size; j++)
+            differentiate(knots, span, j, out + d * size);
 }
