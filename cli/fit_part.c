@@ -140,10 +140,15 @@ static crease_status build(
 
 /* --------------------------------------------------------------------------------- telling -- */
 
+static const crease_regions *regions_of(const result *all)
+{
+    return crease_part_regions(all->part);
+}
+
 static cJSON *face_object(const result *all, size_t index)
 {
     const crease_part_face face = crease_part_face_at(all->part, index);
-    const crease_region region = crease_regions_at(all->regions, face.region);
+    const crease_region region = crease_regions_at(regions_of(all), face.region);
     const deviation_summary d = {face.mean, face.rms, face.p95, face.most};
     cJSON *object = cJSON_CreateObject();
     cJSON_AddNumberToObject(object, "region", face.region);
@@ -185,7 +190,8 @@ static void describe_kinds(report *r, const result *all)
     region_counts counts = {0};
     char text[160];
     for (size_t i = 0; i < crease_part_face_count(all->part); i++)
-        counts.of[crease_regions_at(all->regions, crease_part_face_at(all->part, i).region).type]++;
+        counts.of[crease_regions_at(regions_of(all), crease_part_face_at(all->part, i).region)
+                      .type]++;
     region_counts_text(&counts, text, sizeof text);
     report_line(r, "%zu faces: %s; %zu edges, %zu of them sharp", crease_part_face_count(all->part),
         text, crease_part_edge_count(all->part), all->sharp_count);
@@ -196,8 +202,8 @@ static void describe_snaps(report *r, const result *all)
 {
     static const char *const names[] = {"parallel", "perpendicular", "coaxial", "equal radii"};
     cJSON *list = cJSON_AddArrayToObject(r->root, "snapped");
-    for (size_t i = 0; i < crease_regions_snap_count(all->regions); i++) {
-        const crease_snap snap = crease_regions_snap_at(all->regions, i);
+    for (size_t i = 0; i < crease_regions_snap_count(regions_of(all)); i++) {
+        const crease_snap snap = crease_regions_snap_at(regions_of(all), i);
         cJSON *object = cJSON_CreateObject();
         cJSON_AddStringToObject(object, "to", names[snap.kind]);
         cJSON *regions = cJSON_AddArrayToObject(object, "regions");
@@ -211,9 +217,9 @@ static void describe_snaps(report *r, const result *all)
 static void tell_snaps(const report *r, const result *all)
 {
     size_t counts[CREASE_SNAP_EQUAL_RADII + 1] = {0};
-    const size_t count = crease_regions_snap_count(all->regions);
+    const size_t count = crease_regions_snap_count(regions_of(all));
     for (size_t i = 0; i < count; i++)
-        counts[crease_regions_snap_at(all->regions, i).kind]++;
+        counts[crease_regions_snap_at(regions_of(all), i).kind]++;
     if (count > 0)
         report_line(r,
             "snapped within their errors: %zu parallel, %zu perpendicular, %zu coaxial, %zu equal "
@@ -236,7 +242,8 @@ static void describe(report *r, const settings *s, result *all)
     cJSON_AddStringToObject(object, "state", states[state]);
     cJSON_AddStringToObject(object, "why", why);
     cJSON_AddNumberToObject(object, "volume", volume);
-    cJSON_AddNumberToObject(r->root, "noise", crease_regions_sigma(all->regions));
+    cJSON_AddBoolToObject(object, "united", regions_of(all) != all->regions);
+    cJSON_AddNumberToObject(r->root, "noise", crease_regions_sigma(regions_of(all)));
     deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
     describe_lists(r, all);
     describe_snaps(r, all);
@@ -246,10 +253,13 @@ static void describe(report *r, const settings *s, result *all)
         report_line(r, "%s", why);
     else
         report_line(r, "%s: %s", words[state], why);
+    if (regions_of(all) != all->regions)
+        report_line(
+            r, "regions that join without an angle were united: as found they do not close");
     describe_kinds(r, all);
     tell_snaps(r, all);
     report_line(r, "deviation: rms %.4g, 95 %% below %.4g, max %.4g; noise %.2g", d.rms, d.p95,
-        d.most, crease_regions_sigma(all->regions));
+        d.most, crease_regions_sigma(regions_of(all)));
 }
 
 /* --------------------------------------------------------------------------------- writing -- */

@@ -393,6 +393,7 @@ CAD_FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "crease_part_state_of": (c_int, _object),
     "crease_part_message": (c_char_p, _object),
     "crease_part_volume": (c_double, _object),
+    "crease_part_regions": (_object, _object),
     "crease_part_face_count": (c_size_t, _object),
     "crease_part_face_at": (PartFace, _object, c_size_t),
     "crease_part_edge_count": (c_size_t, _object),

@@ -62,7 +62,7 @@ class Crease:
     position_error: float  #: standard error of the curve's place, across it
 
 
-def regions_of(handle: Handle) -> list[Region]:
+def regions_of(handle: Held) -> list[Region]:
     """All regions in the order of their numbers."""
     found = []
     for index in range(LIBRARY.crease_regions_count(handle)):
@@ -82,7 +82,7 @@ class Snap:
     regions: tuple[int, ...]  #: their numbers
 
 
-def snaps_of(handle: Handle) -> list[Snap]:
+def snaps_of(handle: Held) -> list[Snap]:
     """What was snapped."""
     found = (LIBRARY.crease_regions_snap_at(handle, index)
              for index in range(LIBRARY.crease_regions_snap_count(handle)))

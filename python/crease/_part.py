@@ -60,11 +60,12 @@ class Part(Seen):
 
     _own_targets = Target.CAD | Target.MESH
 
-    def __init__(self, cloud: Cloud, regions: Handle, handle: Handle, method: str) -> None:
+    def __init__(self, cloud: Cloud, handle: Handle, method: str) -> None:
         self._cloud, self._handle, self.method = cloud, handle, method
-        self._noise = float(LIBRARY.crease_regions_sigma(regions))
-        self.regions: list[Region] = regions_of(regions)
-        self.snapped: list[Snap] = snaps_of(regions)
+        used = Borrowed(LIBRARY.crease_part_regions(handle), handle)
+        self._noise = float(LIBRARY.crease_regions_sigma(used))
+        self.regions: list[Region] = regions_of(used)
+        self.snapped: list[Snap] = snaps_of(used)
 
     def __repr__(self) -> str:
         return (f"<crease.Part: {self.state}, {len(self.faces)} faces, {len(self.creases)} "
@@ -193,4 +194,4 @@ def build_part(work: Work, cloud: Cloud, method: str, splitting: RegionsOptions,
     with _BUILDING:
         handle = work.make("part", "crease_part_build", cloud._handle, regions, network,
                            byref(options))
-    return Part(cloud, regions, handle, method)
+        return Part(cloud, handle, method)

@@ -9,6 +9,7 @@
 
 #include <BRepCheck_Analyzer.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_TVertex.hxx>
 #include <BRep_Tool.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <TopExp.hxx>
@@ -24,7 +25,8 @@ namespace crease_cad
 
 /* Of vertices, in spacings. */
 static constexpr double LEAST_REACH = 0.01, MOST_REACH = 0.5;
-static constexpr double WIDER = 1.5; /* from try to try */
+static constexpr double MOST_ALONE = 2.5; /* when one vertex mends a face */
+static constexpr double WIDER = 1.5;      /* from try to try */
 
 static int face_count(const TopoDS_Shape &shape)
 {
@@ -56,10 +58,42 @@ static bool widen_vertices(const TopoDS_Shape &shape, double least, double most)
     return wider;
 }
 
+/* Lets one vertex of a face reach so far that the face is valid: where two edges come to it side by
+ * side, as at a cusp, they cross well before. */
+static bool widen_one(const TopoDS_Shape &face, double least, double most)
+{
+    TopTools_IndexedMapOfShape vertices;
+    TopExp::MapShapes(face, TopAbs_VERTEX, vertices);
+    for (double reach = least; reach <= most; reach *= WIDER)
+        for (int i = 1; i <= vertices.Extent(); i++) {
+            const Handle(BRep_TVertex) vertex =
+                Handle(BRep_TVertex)::DownCast(vertices(i).TShape());
+            const double before = vertex->Tolerance();
+            if (before >= reach)
+                continue;
+            vertex->Tolerance(reach);
+            if (BRepCheck_Analyzer(face).IsValid())
+                return true;
+            vertex->Tolerance(before);
+        }
+    return false;
+}
+
+static void widen_each(const TopoDS_Shape &shape, double least, double most)
+{
+    for (TopExp_Explorer face(shape, TopAbs_FACE); face.More(); face.Next())
+        if (!BRepCheck_Analyzer(face.Current()).IsValid())
+            widen_one(face.Current(), least, most);
+}
+
 /* What can be mended without taking or adding faces. */
 static TopoDS_Shape mended(const TopoDS_Shape &shape, double spacing)
 {
     bool valid = BRepCheck_Analyzer(shape).IsValid();
+    if (!valid) {
+        widen_each(shape, LEAST_REACH * spacing, MOST_ALONE * spacing);
+        valid = BRepCheck_Analyzer(shape).IsValid();
+    }
     while (!valid && widen_vertices(shape, LEAST_REACH * spacing, MOST_REACH * spacing))
         valid = BRepCheck_Analyzer(shape).IsValid();
     if (valid)

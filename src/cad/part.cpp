@@ -8,12 +8,25 @@
 #include "cad/judge.hpp"
 #include "cad/kernel.hpp"
 #include "cad/ways.hpp"
+#include "segment/coarser.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
 #include <sys/resource.h>
+
+namespace crease_cad
+{
+
+struct RegionsFree {
+    void operator()(crease_regions *regions) const
+    {
+        crease_regions_free(regions);
+    }
+};
+
+} // namespace crease_cad
 
 struct crease_part {
     ~crease_part();
@@ -23,6 +36,8 @@ struct crease_part {
     std::vector<crease_part_face> faces;
     std::vector<crease_part_edge> edges;
     std::vector<crease_curve *> curves;
+    const crease_regions *regions;
+    std::unique_ptr<crease_regions, crease_cad::RegionsFree> coarser; /* where regions are these */
 };
 
 crease_part::~crease_part()
@@ -45,25 +60,30 @@ struct Step {
     double diagonals, spacings;
     bool for_solid;
     bool for_open; /* it is tried when the points end at a border */
+    bool coarser;  /* with regions united that join smoothly; tried when nothing closed before */
 };
 
 static constexpr Step steps[] = {
-    {follow_topology, 0.0, 0.0, true, true},
-    {arrange_solid, 0.03, 1.8, true, false},
-    {arrange_solid, 0.06, 3.6, true, false},
-    {arrange_solid, 0.12, 7.2, true, false},
-    {arrange_solid, 0.3, 18.0, true, false},
-    {arrange_shells, 0.03, 3.0, false, true},
-    {lay_out_faces, 0.0, 0.0, false, true},
+    {follow_topology, 0.0, 0.0, true, true, false},
+    {follow_topology, 0.0, 0.0, true, false, true},
+    {arrange_solid, 0.03, 1.8, true, false, false},
+    {arrange_solid, 0.06, 3.6, true, false, false},
+    {arrange_solid, 0.12, 7.2, true, false, false},
+    {arrange_solid, 0.3, 18.0, true, false, false},
+    {arrange_shells, 0.03, 3.0, false, true, false},
+    {lay_out_faces, 0.0, 0.0, false, true, false},
 };
 
 /* The search for the best outcome. */
 struct Search {
     crease_context *context;
     const crease_cloud *cloud;
-    const Job &job;
+    const Job &given;
     bool as_bsplines;
     double began; /* see seconds_apart() */
+    std::unique_ptr<crease_regions, RegionsFree> coarser_regions;
+    std::unique_ptr<const Job> coarser; /* with these */
+    const Job *job;                     /* of the best */
     std::optional<Judged> best;
     std::string why_no_solid;
 };
@@ -108,9 +128,23 @@ static std::string why_not(const Judged &judged)
     return "the closed shell leaves points or bears faces without points";
 }
 
-static void attempt(Search &search, const Step &step)
+/* Null when the given regions are no finer. */
+static const Job *coarser_job(Search &search)
 {
-    const Job &job = search.job;
+    if (search.coarser)
+        return search.coarser.get();
+    crease_regions *found = nullptr;
+    require(
+        crease_regions_find_coarser(search.context, search.cloud, search.given.regions, &found));
+    search.coarser_regions.reset(found);
+    if (found && crease_regions_count(found) < crease_regions_count(search.given.regions))
+        search.coarser = std::make_unique<const Job>(
+            search.context, search.cloud, found, nullptr, search.given.bordered);
+    return search.coarser.get();
+}
+
+static void attempt(Search &search, const Step &step, const Job &job)
+{
     const double margin = std::max(step.diagonals * job.diagonal, step.spacings * job.spacing);
     std::vector<char> bytes;
     try {
@@ -124,13 +158,15 @@ static void attempt(Search &search, const Step &step)
     Judged judged = judge(search.context, search.cloud, job, unpack(bytes));
     if (step.for_solid && !is_true_solid(judged) && search.why_no_solid.empty())
         search.why_no_solid = why_not(judged);
-    if (!search.best || is_better(judged, *search.best))
+    if (!search.best || is_better(judged, *search.best)) {
         search.best = std::move(judged);
+        search.job = &job;
+    }
 }
 
 static bool is_enough(const Search &search, const Step &next)
 {
-    if (search.best && search.job.bordered)
+    if (search.best && search.given.bordered)
         return search.best->state == CREASE_PART_SHELL && search.best->loss < GOOD_LOSS;
     if (!search.best || !is_true_solid(*search.best))
         return false;
@@ -142,12 +178,15 @@ static void search_best(Search &search)
     for (const Step &step : steps) {
         if (is_enough(search, step))
             break;
-        if (seconds_for(search, step) < LEAST_SECONDS || (search.job.bordered && !step.for_open))
+        if (seconds_for(search, step) < LEAST_SECONDS || (search.given.bordered && !step.for_open))
+            continue;
+        if (step.coarser && search.best && is_true_solid(*search.best))
             continue;
         if (!step.for_solid && search.best && search.best->state == CREASE_PART_SHELL &&
             search.best->loss < GOOD_LOSS)
             break;
-        attempt(search, step);
+        if (const Job *const job = step.coarser ? coarser_job(search) : &search.given)
+            attempt(search, step, *job);
     }
     if (!search.best)
         throw Failure{CREASE_ERROR_NUMERIC, search.why_no_solid};
@@ -179,7 +218,7 @@ static std::string message_of(const Search &search)
     const std::string what = best.state == CREASE_PART_SHELL
         ? "an open shell of " + faces + " with " + free_edges_of(best.outcome)
         : faces + " side by side";
-    if (search.job.bordered)
+    if (search.given.bordered)
         return best.outcome.why.empty() ? what : what + ": " + best.outcome.why;
     return what + ", no solid: " + search.why_no_solid;
 }
@@ -210,9 +249,12 @@ static std::unique_ptr<crease_part> part_of(Search &search)
 {
     auto part = std::make_unique<crease_part>();
     part->message = message_of(search);
-    part->faces = describe_faces(search.job, *search.best);
+    part->faces = describe_faces(*search.job, *search.best);
     add_edges(search.context, *search.best, *part);
     part->judged = std::move(*search.best);
+    part->regions = search.job->regions;
+    if (search.job == search.coarser.get())
+        part->coarser = std::move(search.coarser_regions);
     if (!is_true_solid(part->judged)) {
         part->judged.outcome.summary.volume = 0.0;
         if (part->judged.state == CREASE_PART_SOLID)
@@ -248,8 +290,8 @@ crease_status crease_part_build(crease_context *context, const crease_cloud *clo
     return guard(context, "part", [&] {
         check(cloud, regions);
         const Job job(context, cloud, regions, network, options && options->open);
-        Search search = {
-            context, cloud, job, options && options->bspline_faces, seconds_apart(), {}, ""};
+        Search search = {context, cloud, job, options && options->bspline_faces, seconds_apart(),
+            {}, {}, nullptr, {}, ""};
         search_best(search);
         *out = part_of(search).release();
     });
@@ -273,6 +315,11 @@ const char *crease_part_message(const crease_part *part)
 double crease_part_volume(const crease_part *part)
 {
     return part->judged.outcome.summary.volume;
+}
+
+const crease_regions *crease_part_regions(const crease_part *part)
+{
+    return part->regions;
 }
 
 size_t crease_part_face_count(const crease_part *part)

@@ -15,6 +15,11 @@
 static const double TOGETHER = 3.0; /* links of three pairs around a corner */
 static const double KNOWN = 3.0;    /* from a corner that the three regions have already */
 static const double SAME = 2.5;     /* a corner and a vertex that is taken for it */
+static const double GAP = 10.0;     /* between ends around a hole in the points, at most, ... */
+static const double MOVE = 4.0;     /* from their middle to the corner, ... */
+static const double APART = 1.0;    /* and from there to each surface */
+
+enum { ROUNDS = 20 };
 
 /* A vertex that lacks an edge of exactly two regions. */
 struct end {
@@ -127,6 +132,35 @@ static bool find_corner(const crease_graph *graph, const crease_links *links,
     return found;
 }
 
+/* Where the points leave a hole around the corner: the place beside the ends that is nearest to all
+ * three surfaces. False when the ends are far from each other, or the surfaces from the place. */
+static bool find_in_hole(const crease_graph *graph, const struct end *const ends[3],
+    const uint32_t regions[3], double place[3])
+{
+    const crease_vertex *const v = graph->topology->vertices;
+    const double s = graph->survey->spacing;
+    double middle[3], gradient[3], most = 0.0;
+    for (int i = 0; i < 3; i++)
+        if (crease_vector_distance(v[ends[i]->vertex].place, v[ends[(i + 1) % 3]->vertex].place) >
+            GAP * s)
+            return false;
+    for (int c = 0; c < 3; c++) {
+        middle[c] = 0.0;
+        for (int i = 0; i < 3; i++)
+            middle[c] += v[ends[i]->vertex].place[c] / 3.0;
+        place[c] = middle[c];
+    }
+    for (int i = 0; i < 3 * ROUNDS; i++) {
+        const double away = crease_graph_distance(graph, regions[i % 3], place, gradient);
+        for (int c = 0; c < 3; c++)
+            place[c] -= away * gradient[c];
+    }
+    for (int i = 0; i < 3; i++)
+        most = fmax(most, fabs(crease_graph_distance(graph, regions[i], place, gradient)));
+    return most < APART * s && crease_vector_distance(place, middle) < MOVE * s &&
+        !is_known(graph, regions, place);
+}
+
 /* The vertex that the three ends lead to: one of theirs, or a new one. */
 static crease_status corner_vertex(
     crease_graph *graph, const struct end *const ends[3], const double place[3], int32_t *out)
@@ -194,7 +228,7 @@ static crease_status try_three(
         if (!is_still_odd(graph, ends[i]))
             return CREASE_OK;
     if (!crease_edge_common(ends[0]->regions, ends[1]->regions, regions) ||
-        !find_corner(graph, links, regions, place))
+        (!find_corner(graph, links, regions, place) && !find_in_hole(graph, ends, regions, place)))
         return CREASE_OK;
     const crease_status status = corner_vertex(graph, ends, place, &corner);
     return status == CREASE_OK ? join(graph, links, ends, corner) : status;

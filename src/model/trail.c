@@ -18,12 +18,12 @@ enum {
 };
 
 /* In spacings. */
-static const double LONGEST_HOP = 6.0;
+static const double LONGEST_HOP = 12.0;
 static const double STEP = 0.5;
 static const double REACH = 2.0; /* of the common curve */
 
 static const double CROSSING_COSINE = 0.966; /* 15 degrees: more, and surfaces cut each other */
-static const double SMOOTH_COSINE = 0.9;     /* less, and they do not join smoothly */
+static const double SMOOTH_COSINE = 0.9;     /* less, and they do not join smoothly all along */
 
 /* The places of the links, then the first and the last vertex; the search for the way. */
 struct search {
@@ -144,6 +144,20 @@ static bool lay_on_curve(const crease_graph *graph, crease_edge *edge)
     return true;
 }
 
+/* The same where they do so, for surfaces that join smoothly on one part of the way and with an
+ * angle on another. */
+static void lay_on_part(const crease_graph *graph, crease_edge *edge)
+{
+    const double reach = REACH * graph->survey->spacing;
+    for (size_t i = 1; i + 1 < edge->count; i++) {
+        double *const place = edge->points + 3 * i, first[3], second[3];
+        crease_graph_distance(graph, edge->regions[0], place, first);
+        crease_graph_distance(graph, edge->regions[1], place, second);
+        if (fabs(crease_vector_dot(first, second)) < CROSSING_COSINE)
+            crease_graph_project(graph, edge->regions, reach, place);
+    }
+}
+
 static bool lay(const crease_graph *graph, crease_edge *edge)
 {
     double cosines[2];
@@ -151,8 +165,10 @@ static bool lay(const crease_graph *graph, crease_edge *edge)
     angles_along(graph, edge, cosines);
     if (cosines[0] < CROSSING_COSINE)
         return lay_on_curve(graph, edge);
+    if (cosines[1] < SMOOTH_COSINE)
+        lay_on_part(graph, edge);
     edge->smooth = edge->loose = true;
-    return cosines[1] > SMOOTH_COSINE && crease_edge_lay_midway(graph, edge);
+    return crease_edge_lay_midway(graph, edge);
 }
 
 crease_status crease_trail_lay(const crease_graph *graph, const crease_loose *loose,

@@ -536,6 +536,7 @@ crease_status crease_regions_find_by(crease_context *context, const crease_cloud
     if (!regions)
         return CREASE_ERROR_NO_MEMORY;
     regions->count = crease_cloud_count(cloud);
+    regions->options = chosen;
     status = sort_points(context, regions, cloud);
     if (status == CREASE_OK)
         status = find(context, regions, &chosen, surroundings, user);

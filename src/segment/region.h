@@ -37,6 +37,7 @@ struct crease_regions {
     double *normals_by_index;
     bool snapped;
     crease_snaps snaps;
+    crease_regions_options options; /* they were found with */
 };
 
 /* Finds the neighbours, k of each, and the noise of points in Morton order. */

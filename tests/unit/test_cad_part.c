@@ -159,6 +159,7 @@ static void given_a_box_then_faces_know_their_points(void **state)
 {
     const given_body box = given_box(1, 0.5, 0.75);
     built b = given_body_part(&box, 0.06, 0);
+    assert_ptr_equal(crease_part_regions(b.part), b.regions);
     double area = 0;
     size_t points = 0;
     for (size_t f = 0; f < crease_part_face_count(b.part); f++) {
