@@ -33,7 +33,6 @@ namespace crease_cad
 namespace
 {
 
-constexpr double TURN = 6.283185307179586476925;
 constexpr double TOLERANCE = 1e-7;
 constexpr double SLACK = 1.05;        /* of tolerances, over the gaps measured */
 constexpr double VERTEX_SLACK = 1.01; /* of a vertex, over its edges */

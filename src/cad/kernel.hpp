@@ -17,6 +17,8 @@
 namespace crease_cad
 {
 
+constexpr double TURN = 6.283185307179586476925; /* 360 degrees */
+
 /* What our own code throws: the status and the sentence that the caller gets. An empty sentence:
  * the context has one already. */
 struct Failure {

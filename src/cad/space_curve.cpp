@@ -33,7 +33,6 @@
 namespace crease_cad
 {
 
-static constexpr double TURN = 6.283185307179586476925;
 static constexpr double ANGLE_TOLERANCE = 1e-12;
 static constexpr double LENGTH_TOLERANCE = 1e-12; /* of the size of a part, about 10 */
 /* In spacings. */

@@ -17,7 +17,6 @@
 namespace crease_cad
 {
 
-static constexpr double TURN = 6.283185307179586476925;
 static constexpr int EXTRA = 12; /* rows before and after the turn */
 
 /* Lets the knots of one direction run from low to high. */

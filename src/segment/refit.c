@@ -4,8 +4,8 @@
 /* Models fitted again to the regions they have by now, and the noise measured again from them.
  * Points next to other regions are left out where there are enough others: their labels were chosen
  * by their distances, so they bend a surface towards where it is already. Those too far from the
- * other regions' surfaces to be of them stay: without them a free form swings at its border. Tubes are
- * fitted to all: a spline of many spans would be free there. */
+ * other regions' surfaces to be of them stay: without them a free form swings at its border. Tubes
+ * are fitted to all: a spline of many spans would be free there. */
 #include "segment/segmentation.h"
 
 #include "base/memory.h"
