@@ -2,60 +2,44 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* Along stretches of a chain, the points within `width` of it are put into the plane across the
- * chain: u across, z along the bisector of the normals. Two profiles are fitted to them,
- *
- *   kinked  z = a + b u + c u-^2 + d u+^2 + e u+        u- = min(u, 0), u+ = max(u, 0)
- *   smooth  the same without e, its pieces joining at the best of several places,
- *
- * with cubic terms when the window is wide, by reweighted least squares. The sum over the stretches
- * of how much worse the smooth profile is, in squared sigmas, says how sure the kink is. */
+ * chain: u across, z along the bisector of the normals. The sum over the stretches of how much
+ * worse a smooth profile explains them than one with a kink, in squared sigmas, says how sure the
+ * kink is. */
 #include "crease/profile.h"
 
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "base/symmetric.h"
 #include "base/vector.h"
+#include "crease/kink.h"
 #include "crease/sides.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum {
-    MOST_TERMS = 7,
     STRETCH_POINTS = 24, /* of the chain */
     LEAST_SAMPLES = 12,
     MOST_SAMPLES = 40000, /* of one stretch */
     BALL_POINTS = 4096,
-    ROUNDS = 2,       /* of reweighting */
-    LEAST_JOINTS = 6, /* places tried for the joint of the smooth profile, in half the window */
     WIDENINGS = 3
 };
 
 static const double WIDTH = 6.0;        /* of the window, in spacings; then twice and four times */
 static const double LEAST_WIDTH = 2.5;  /* in spacings */
-static const double CUBIC_WIDTH = 8.0;  /* in spacings: wider windows get cubic terms */
 static const double RADIUS_SHARE = 0.7; /* of the radius of a curved chain, the widest window */
 static const double SLAB = 0.25;        /* half the thickness of one slice across, in spacings */
 static const double LEAST_ALIGNMENT = 0.75; /* of a point's model with the model at the chain */
-static const double JOINT_RANGE = 0.7;      /* of the width, on both sides */
-static const double OUTLIER = 12.0;         /* squared sigmas that one point may cost */
-static const double SOFTNESS = 3.0; /* sigmas at which a point has a quarter of its weight */
-static const double SURE = 10.0;    /* gain at which no wider window is looked at */
+static const double SURE = 10.0;            /* gain at which no wider window is looked at */
+static const double NARROW = 3.0;           /* in spacings, and twice: windows that refute a kink */
+static const double POWER = 5.0;    /* errors of the kink in such a window that make the bend */
+static const double MISSING = 0.33; /* of the bend, what the kink there is less than */
+static const double FOLD = 1.33;    /* right angles from which a bend is a fold */
+static const double SHORTEST =
+    5.0; /* in spacings: of folds, and of chains that turn by 30 degrees */
 static const double NEVER = 1e300;
 
-struct sample {
-    double u, z;
-};
-
-/* A kind of profile. */
-struct shape {
-    bool kinked, cubic;
-    double joint, width;
-};
-
 typedef struct worker_memory {
-    struct sample *samples;
+    crease_profile_sample *samples;
     uint32_t *found;
 } worker_memory;
 
@@ -69,115 +53,25 @@ typedef struct pruning {
 /* What a window says about a chain. */
 struct verdict {
     double gain;
-    double bend; /* mean angle of the kink */
+    double bend;  /* mean angle of the kink */
+    double error; /* of that */
+    double chi;   /* what the smooth profile leaves, by sample, in squared sigmas */
+    double samples;
 };
 
-/* ------------------------------------------------------------------------------- profiles -- */
-
-static size_t term_count(const struct shape *shape)
+/* Adds one stretch to the verdict, whose means are sums so far, weighted by the samples. Where the
+ * profile with a kink fits worse than noise explains, what is left is the scale of the gain. */
+static void judge_samples(const crease_survey *survey, const crease_profile_sample *samples,
+    size_t count, double width, struct verdict *verdict)
 {
-    return 4 + 2 * (size_t)shape->cubic + (size_t)shape->kinked;
-}
-
-/* The kink is the last term. */
-static void terms(const struct shape *shape, double at, double *out)
-{
-    const double u = at - shape->joint, before = fmin(u, 0.0), after = fmax(u, 0.0);
-    size_t n = 0;
-    out[n++] = 1.0;
-    out[n++] = u;
-    out[n++] = before * before;
-    out[n++] = after * after;
-    if (shape->cubic) {
-        out[n++] = before * before * before / shape->width;
-        out[n++] = after * after * after / shape->width;
-    }
-    if (shape->kinked)
-        out[n] = after;
-}
-
-static double residual(
-    const struct shape *shape, const struct sample *sample, const double *weights)
-{
-    double values[MOST_TERMS], z = sample->z;
-    terms(shape, sample->u, values);
-    for (size_t k = 0; k < term_count(shape); k++)
-        z -= weights[k] * values[k];
-    return z;
-}
-
-/* One round of least squares; weights holds the result of the last one, or nothing. */
-static bool solve(const struct shape *shape, const struct sample *samples, size_t count,
-    double sigma, bool reweight, double *weights)
-{
-    const size_t n = term_count(shape);
-    double matrix[MOST_TERMS * MOST_TERMS] = {0}, right[MOST_TERMS] = {0}, values[MOST_TERMS];
-    for (size_t i = 0; i < count; i++) {
-        double weight = 1.0;
-        if (reweight) {
-            const double r = residual(shape, &samples[i], weights) / (SOFTNESS * sigma);
-            weight = 1.0 / ((1.0 + r * r) * (1.0 + r * r));
-        }
-        terms(shape, samples[i].u, values);
-        for (size_t k = 0; k < n; k++) {
-            right[k] += weight * values[k] * samples[i].z;
-            for (size_t l = 0; l <= k; l++)
-                matrix[k * n + l] += weight * values[k] * values[l];
-        }
-    }
-    for (size_t k = 0; k < n; k++)
-        matrix[k * n + k] *= 1.0 + 1e-6; /* a side without points leaves its terms open */
-    if (!crease_symmetric_factor(matrix, n, n, n))
-        return false;
-    crease_symmetric_solve(matrix, n, n, n, right);
-    memcpy(weights, right, n * sizeof *weights);
-    return true;
-}
-
-/* What the best profile of a shape leaves, in squared sigmas; NEVER when there is none. */
-static double fit(const struct shape *shape, const struct sample *samples, size_t count,
-    double sigma, double *weights)
-{
-    double cost = 0.0;
-    for (int round = 0; round < ROUNDS; round++)
-        if (!solve(shape, samples, count, sigma, round > 0, weights))
-            return NEVER;
-    for (size_t i = 0; i < count; i++) {
-        const double r = residual(shape, &samples[i], weights) / sigma;
-        cost += fmin(r * r, OUTLIER);
-    }
-    return cost;
-}
-
-/* What the best smooth profile leaves, whatever the place of its joint. */
-static double fit_smooth(const crease_survey *survey, const struct sample *samples, size_t count,
-    double width, bool cubic)
-{
-    const double step = fmin(width / LEAST_JOINTS, survey->spacing); /* coarser ones fake kinks */
-    const double steps = floor(2.0 * JOINT_RANGE * width / step);
-    double weights[MOST_TERMS], least = NEVER;
-    for (double i = 0.0; i <= steps; i += 1.0) {
-        const struct shape shape = {false, cubic, i * step - JOINT_RANGE * width, width};
-        least = fmin(least, fit(&shape, samples, count, survey->sigma, weights));
-    }
-    return least;
-}
-
-/* Adds one stretch to the verdict; the bend is weighted by the samples, *weight their sum. */
-static void judge_samples(const crease_survey *survey, const struct sample *samples, size_t count,
-    double width, struct verdict *verdict, double *weight)
-{
-    const bool cubic = width > CUBIC_WIDTH * survey->spacing;
-    const struct shape shape = {true, cubic, 0.0, width};
-    double weights[MOST_TERMS];
-    const double smooth = fit_smooth(survey, samples, count, width, cubic);
-    const double kinked = fit(&shape, samples, count, survey->sigma, weights);
-    if (kinked == NEVER || smooth == NEVER)
+    crease_kink kink;
+    if (!crease_kink_measure(samples, count, width, survey->spacing, survey->sigma, &kink))
         return;
-    const double before = weights[1], after = weights[1] + weights[term_count(&shape) - 1];
-    verdict->gain += smooth - kinked;
-    verdict->bend += (double)count * fabs(atan(after) - atan(before));
-    *weight += (double)count;
+    verdict->gain += (kink.smooth - kink.kinked) / fmax(1.0, kink.kinked / (double)count);
+    verdict->bend += (double)count * kink.bend;
+    verdict->error += pow((double)count * kink.error, 2.0);
+    verdict->chi += kink.smooth;
+    verdict->samples += (double)count;
 }
 
 /* -------------------------------------------------------------------------------- samples -- */
@@ -211,7 +105,7 @@ static bool cut(
 /* A point of one of the two regions as a sample, unless it is outside the slice, or its region has
  * turned away there: the far side of a rod. */
 static bool sample_point(const crease_survey *survey, const crease_chain *chain,
-    const cross_section *section, uint32_t point, struct sample *out)
+    const cross_section *section, uint32_t point, crease_profile_sample *out)
 {
     const crease_regions *const regions = survey->regions;
     const int32_t label = regions->labels[point];
@@ -227,8 +121,8 @@ static bool sample_point(const crease_survey *survey, const crease_chain *chain,
     crease_model_distance(&regions->models[label], p, gradient);
     if (fabs(crease_vector_dot(gradient, section->gradients[side])) < LEAST_ALIGNMENT)
         return false;
-    *out =
-        (struct sample){crease_vector_dot(d, section->across), crease_vector_dot(d, section->up)};
+    *out = (crease_profile_sample){
+        crease_vector_dot(d, section->across), crease_vector_dot(d, section->up)};
     return true;
 }
 
@@ -255,17 +149,20 @@ static size_t collect(const crease_survey *survey, const crease_chain *chain, si
 static struct verdict judge_window(const crease_survey *survey, const crease_chain *chain,
     double width, const worker_memory *memory)
 {
-    struct verdict verdict = {0.0, 0.0};
-    double weight = 0.0;
+    struct verdict verdict = {0.0, 0.0, 0.0, 0.0, 0.0};
     for (size_t begin = 0, end = 0; end < chain->count; begin = end) {
         end = begin + STRETCH_POINTS;
         if (end + STRETCH_POINTS / 2 > chain->count)
             end = chain->count; /* a short rest belongs to the last stretch */
         const size_t count = collect(survey, chain, begin, end, width, memory);
         if (count >= LEAST_SAMPLES)
-            judge_samples(survey, memory->samples, count, width, &verdict, &weight);
+            judge_samples(survey, memory->samples, count, width, &verdict);
     }
-    verdict.bend = weight > 0.0 ? verdict.bend / weight : 0.0;
+    if (!(verdict.samples > 0.0))
+        return (struct verdict){0.0, 0.0, NEVER, NEVER, 0.0};
+    verdict.bend /= verdict.samples;
+    verdict.error = sqrt(verdict.error) / verdict.samples;
+    verdict.chi /= verdict.samples;
     return verdict;
 }
 
@@ -291,7 +188,7 @@ static struct verdict judge(
     const crease_survey *survey, const crease_chain *chain, const worker_memory *memory)
 {
     const double widest = RADIUS_SHARE * mean_radius(chain);
-    struct verdict best = {-NEVER, 0.0};
+    struct verdict best = {-NEVER, 0.0, NEVER, NEVER, 0.0};
     for (int i = 0; i < WIDENINGS; i++) {
         const double wanted = ldexp(WIDTH, i) * survey->spacing;
         const double width = fmax(fmin(wanted, widest), LEAST_WIDTH * survey->spacing);
@@ -309,6 +206,30 @@ static double least_gain(double bend)
 {
     const double degrees = bend * 180.0 / acos(-1.0);
     return fmin(10.0, fmax(2.0, 10.0 - 8.0 * (degrees - 30.0) / 15.0));
+}
+
+/* Whether a sharp bend of the models is none of the points': a window in which it could not be
+ * missed shows far less of it. Two sheets that fold back on each other lie above each other there,
+ * which no one profile explains; where models that cross at a sharp angle only seem to do so, one
+ * does. */
+static bool is_refuted(const crease_survey *survey, const crease_chain *chain, double bend,
+    const worker_memory *memory)
+{
+    const double radius = mean_radius(chain), length = crease_chain_length(chain);
+    const double widest = RADIUS_SHARE * radius, right = 0.5 * acos(-1.0);
+    if (length < SHORTEST * survey->spacing && (bend > FOLD * right || radius < 2.0 * length))
+        return true;
+    for (int i = bend > right ? 1 : 0; i < 2; i++) {
+        const double width = fmin(ldexp(NARROW, i) * survey->spacing, widest);
+        const struct verdict seen =
+            judge_window(survey, chain, fmax(width, LEAST_WIDTH * survey->spacing), memory);
+        const bool folded =
+            bend > right && seen.chi > 1.0 + 3.0 * sqrt(2.0 / fmax(seen.samples, 1.0));
+        if (POWER * seen.error < bend && seen.bend < MISSING * bend &&
+            seen.gain < least_gain(bend) && !folded)
+            return true;
+    }
+    return false;
 }
 
 /* Whether most points beside a chain lie on an edge that the scanner has rounded: that they turn
@@ -329,24 +250,27 @@ static bool is_rounded(const crease_survey *survey, const crease_chain *chain, u
     return 2 * on > all;
 }
 
+static bool is_crease(
+    const crease_survey *survey, const crease_chain *chain, const worker_memory *memory)
+{
+    const double bend = crease_chain_mean_bend(chain);
+    if (survey->regions->rounded) {
+        if (is_rounded(survey, chain, memory->found))
+            return true;
+    } else if (!crease_sides_end(survey, chain, memory->found)) {
+        return false;
+    } else if (bend >= acos(-1.0) / 3.0) {
+        return !is_refuted(survey, chain, bend, memory);
+    }
+    const struct verdict verdict = judge(survey, chain, memory);
+    return verdict.gain >= least_gain(bend) && verdict.bend >= survey->least_bend;
+}
+
 static void prune_some(void *user, size_t begin, size_t end, int worker)
 {
     const pruning *const run = user;
-    for (size_t i = begin; i < end; i++) {
-        const crease_chain *const chain = &run->chains->items[i];
-        const double bend = crease_chain_mean_bend(chain);
-        run->keep[i] = true;
-        const uint8_t *const rounded = run->survey->regions->rounded;
-        if (!rounded && !crease_sides_end(run->survey, chain, run->workers[worker].found)) {
-            run->keep[i] = false;
-            continue;
-        }
-        if (rounded ? is_rounded(run->survey, chain, run->workers[worker].found)
-                    : bend >= acos(-1.0) / 3.0)
-            continue;
-        const struct verdict verdict = judge(run->survey, chain, &run->workers[worker]);
-        run->keep[i] = verdict.gain >= least_gain(bend) && verdict.bend >= run->survey->least_bend;
-    }
+    for (size_t i = begin; i < end; i++)
+        run->keep[i] = is_crease(run->survey, &run->chains->items[i], &run->workers[worker]);
 }
 
 static void compact(crease_chains *chains, const bool *keep)
@@ -367,7 +291,7 @@ crease_status crease_profile_prune(
     const size_t threads = (size_t)crease_context_threads(context);
     bool *const keep = crease_allocate(context, chains->count, sizeof *keep);
     worker_memory *const workers = crease_allocate(context, threads, sizeof *workers);
-    struct sample *const samples =
+    crease_profile_sample *const samples =
         crease_allocate(context, threads, MOST_SAMPLES * sizeof *samples);
     uint32_t *const found = crease_allocate(context, threads, BALL_POINTS * sizeof *found);
     crease_status status = CREASE_ERROR_NO_MEMORY;

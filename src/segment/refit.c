@@ -27,22 +27,29 @@ typedef struct refitting {
     size_t sample;
     int depth;       /* neighbours that must have the same label */
     bool keep_kinds; /* a surface that still fits to the noise keeps its kind */
-    bool freeforms;  /* only large free forms, each to be as close as it can */
+    bool last;       /* large free forms as close as they can be, other kinds once more; points
+                        that are certain count as interior */
     uint8_t *interior;
 } refitting;
 
-/* Whether a point that has neighbours of other regions cannot be of theirs. */
+/* Whether a point that has neighbours of other regions cannot be of theirs, wherever it would lie
+ * without its error across its own surface: so no side of the surface is preferred. */
 static bool is_certain(const crease_segmentation *seg, size_t point, int depth)
 {
     const uint32_t *const near = crease_segmentation_near(seg, point);
-    double gradient[3];
+    const int32_t own = seg->labels[point];
+    double gradient[3], foot[3];
+    if (own < 0)
+        return false;
+    const double away = crease_model_distance(&seg->models[own], seg->points + 3 * point, gradient);
+    for (size_t c = 0; c < 3; c++)
+        foot[c] = seg->points[3 * point + c] - away * gradient[c];
     for (int j = 1; j <= depth; j++) {
         const int32_t label = seg->labels[near[j]];
-        if (label == seg->labels[point])
+        if (label == own)
             continue;
         if (label < 0 ||
-            fabs(crease_model_distance(&seg->models[label], seg->points + 3 * point, gradient)) <
-                certain * seg->sigma)
+            fabs(crease_model_distance(&seg->models[label], foot, gradient)) < certain * seg->sigma)
             return false;
     }
     return true;
@@ -58,8 +65,8 @@ static void find_interior(void *user, size_t begin, size_t end, int worker)
         int j = 1;
         while (j <= run->depth && seg->labels[near[j]] == seg->labels[i])
             j++;
-        run->interior[i] =
-            seg->labels[i] >= 0 && (j > run->depth || is_certain(seg, i, run->depth));
+        run->interior[i] = seg->labels[i] >= 0 &&
+            (j > run->depth || (run->last && is_certain(seg, i, run->depth)));
     }
 }
 
@@ -93,16 +100,21 @@ static bool is_simple(const crease_model *model)
         (!model->patch.spline && model->patch.degree == 2);
 }
 
+/* The same kind of surface, where it still fits to the noise. */
+static bool fit_again(const refitting *run, size_t region, crease_fitter *fitter)
+{
+    const crease_model *const old = &run->seg->models[region];
+    const double most = 1.0 + 3.0 * sqrt(2.0 / (double)fitter->sample.count);
+    return crease_fit_kind(fitter, &fitter->sample, old->type, old) && fitter->best.chi < most;
+}
+
 static bool fit(const refitting *run, size_t region, crease_fitter *fitter)
 {
     const crease_model *const old = &run->seg->models[region];
     const crease_sample *const sample = &fitter->sample;
-    const double count = (double)sample->count;
-    if (run->keep_kinds && is_simple(old) && crease_fit_kind(fitter, sample, old->type, old) &&
-        fitter->best.chi < 1.0 + 3.0 * sqrt(2.0 / count))
+    if (run->keep_kinds && is_simple(old) && fit_again(run, region, fitter))
         return true;
-    return crease_fit_choose(fitter, sample,
-        run->freeforms ? CREASE_RULE_AKAIKE : CREASE_RULE_BAYES,
+    return crease_fit_choose(fitter, sample, run->last ? CREASE_RULE_AKAIKE : CREASE_RULE_BAYES,
         crease_fit_level_for(sample->count), old, INFINITY);
 }
 
@@ -111,11 +123,11 @@ static void refit_region(const refitting *run, size_t region, crease_fitter *fit
     crease_segmentation *const seg = run->seg;
     const size_t size = crease_segmentation_size(seg, region);
     const crease_model *const old = &seg->models[region];
-    if (size < LEAST_MEMBERS ||
-        (run->freeforms && (old->type != CREASE_REGION_FREEFORM || size < LARGE_FREEFORM)))
+    const bool form = old->type == CREASE_REGION_FREEFORM;
+    if (size < LEAST_MEMBERS || (run->last && form && size < LARGE_FREEFORM))
         return;
     sample_region(run, region, &fitter->sample);
-    if (!fit(run, region, fitter))
+    if (run->last && !form ? !fit_again(run, region, fitter) : !fit(run, region, fitter))
         return;
     crease_model model;
     crease_fit_covariance(fitter, &fitter->sample, &fitter->best);
@@ -155,9 +167,9 @@ crease_status crease_refit(crease_segmentation *seg, size_t sample, bool keep_ki
     return refit(&run);
 }
 
-crease_status crease_refit_freeforms(crease_segmentation *seg)
+crease_status crease_refit_closely(crease_segmentation *seg)
 {
-    refitting run = {.seg = seg, .sample = CREASE_SAMPLE_POINTS, .freeforms = true};
+    refitting run = {.seg = seg, .sample = CREASE_SAMPLE_POINTS, .last = true};
     return refit(&run);
 }
 

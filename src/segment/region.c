@@ -100,11 +100,11 @@ static crease_status settle(crease_segmentation *seg, int number, progress *done
 
 static crease_status polish(crease_segmentation *seg)
 {
-    crease_status status = crease_refit_freeforms(seg);
+    crease_status status = crease_refit_closely(seg);
     for (int i = 0; i < 2 && status == CREASE_OK; i++) {
         status = relabel(seg, LABEL_ROUNDS / 2, &(progress){0});
         if (status == CREASE_OK)
-            status = crease_refit_freeforms(seg);
+            status = crease_refit_closely(seg);
     }
     if (status == CREASE_OK)
         crease_segmentation_compact(seg);

@@ -100,8 +100,9 @@ crease_status crease_merge_within(crease_segmentation *seg, size_t sample, doubl
 crease_status crease_relabel(crease_segmentation *seg, int rounds, size_t *changed);
 /* Fits the models to their regions' interiors again. */
 crease_status crease_refit(crease_segmentation *seg, size_t sample, bool keep_kinds);
-/* Fits free forms of large regions to all their points. */
-crease_status crease_refit_freeforms(crease_segmentation *seg);
+/* Fits the models, when the labels stand, to all points that are certain: free forms of large
+ * regions as closely as can be, other kinds again. */
+crease_status crease_refit_closely(crease_segmentation *seg);
 /* Looks for other surfaces that explain a region and its surroundings better, or for two of them.
  */
 crease_status crease_reconsider(crease_segmentation *seg, size_t *changed);

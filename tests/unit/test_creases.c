@@ -170,6 +170,23 @@ static void given_curved_sheets_when_found_then_crease_where_they_meet(void **st
     end_world(&w);
 }
 
+static void given_few_points_on_a_wavy_sheet_when_found_then_no_crease(void **state)
+{
+    const double turn = 2 * acos(-1);
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        given_points points = {0, 0, NULL, NULL};
+        for (uint64_t i = 0; i < 800; i++) {
+            const double x = crease_random_uniform(seed, 1, i);
+            const double y = crease_random_uniform(seed, 2, i);
+            const double place[3] = {x, y, 0.1 * sin(turn * x) * cos(turn * y)};
+            given_point(&points, place, 0);
+        }
+        world w = world_of_points(points, 2);
+        assert_int_equal(crease_network_count(w.network), 0);
+        end_world(&w);
+    }
+}
+
 static void given_torus_and_sphere_when_found_then_no_crease(void **state)
 {
     const double origin[3] = {0, 0, 0}, z[3] = {0.3, 0.1, 1};
@@ -253,6 +270,7 @@ int main(void)
         cmocka_unit_test(given_noisy_cube_when_found_then_features_beside_edges),
         cmocka_unit_test(given_rod_when_found_then_two_rings_and_no_seam),
         cmocka_unit_test(given_curved_sheets_when_found_then_crease_where_they_meet),
+        cmocka_unit_test(given_few_points_on_a_wavy_sheet_when_found_then_no_crease),
         cmocka_unit_test(given_torus_and_sphere_when_found_then_no_crease),
         cmocka_unit_test(given_open_sheet_when_found_then_its_border_is_no_crease),
         cmocka_unit_test(given_pyramid_when_found_then_four_creases_meet),
