@@ -4,6 +4,7 @@
 #include "cad/arrangement.hpp"
 
 #include "cad/closing.hpp"
+#include "cad/effort.hpp"
 #include "cad/kernel.hpp"
 
 #include <BOPAlgo_Builder.hxx>
@@ -21,9 +22,10 @@
 namespace crease_cad
 {
 
-static constexpr double FUZZ = 1e-7;        /* of the diagonal: what is nearer is one */
-static constexpr double IN_FACE = 1e-7;     /* tolerance in the plane of the parameters */
-static constexpr size_t MOST_VOTERS = 8000; /* points of one carrier that are looked at */
+static constexpr double FUZZ = 1e-7;          /* of the diagonal: what is nearer is one */
+static constexpr double IN_FACE = 1e-7;       /* tolerance in the plane of the parameters */
+static constexpr long MOST_QUESTIONS = 50000; /* see Effort */
+static constexpr size_t MOST_VOTERS = 8000;   /* points of one carrier that are looked at */
 
 /* Gives every point of the face's carrier to the piece that it lies beside. */
 static void count_support(
@@ -116,7 +118,9 @@ Arrangement cells_between(const Job &job, const std::vector<Supported> &faces)
     prepare(maker, job, faces);
     maker.SetIntersect(true);
     maker.SetAvoidInternalShapes(true);
-    maker.Perform();
+    const Handle(Effort) effort = new Effort(MOST_QUESTIONS);
+    maker.Perform(effort->Start());
+    effort->check();
     if (maker.HasErrors())
         throw Failure{CREASE_ERROR_NUMERIC, "OpenCASCADE cannot intersect the surfaces"};
     Arrangement out;
@@ -142,8 +146,10 @@ Arrangement pieces_of(
     prepare(cutter, job, faces);
     for (const TopoDS_Edge &cut : cuts)
         cutter.AddArgument(cut);
+    const Handle(Effort) effort = new Effort(MOST_QUESTIONS);
     if (faces.size() + cuts.size() > 1)
-        cutter.Perform();
+        cutter.Perform(effort->Start());
+    effort->check();
     if (cutter.HasErrors())
         throw Failure{CREASE_ERROR_NUMERIC, "OpenCASCADE cannot intersect the surfaces"};
     Arrangement out;

@@ -12,8 +12,9 @@ namespace crease_cad
 {
 
 static constexpr double OFF_SIGMAS = 4.0, OFF_SPACINGS = 0.25; /* farther points are not on it */
-static constexpr double MOST_LOSS = 0.1;       /* of a solid that is taken for the part */
-static constexpr double MOST_SHELL_LOSS = 0.5; /* of a shell that is */
+static constexpr double MOST_LOSS = 0.1;         /* of a solid that is taken for the part */
+static constexpr double MOST_SHELL_LOSS = 0.3;   /* of a shell that is */
+static constexpr double MOST_PIECES_LOSS = 0.04; /* of several shells, worth more than faces */
 
 static void project(crease_context *context, const crease_cloud *cloud, Judged &out)
 {
@@ -98,14 +99,24 @@ bool is_true_solid(const Judged &judged)
     return judged.state == CREASE_PART_SOLID && judged.loss < MOST_LOSS;
 }
 
+bool shares_edges(const Judged &judged)
+{
+    const std::vector<EdgeFact> &edges = judged.outcome.edges;
+    return std::any_of(edges.begin(), edges.end(), [](const EdgeFact &edge) {
+        return edge.faces[1] != UINT32_MAX && edge.faces[1] != edge.faces[0];
+    });
+}
+
 /* A closed solid that the points contradict is worse than faces side by side: it looks finished. */
 static int rank(const Judged &judged)
 {
     if (is_true_solid(judged))
-        return judged.lost == 0 ? 3 : 2;
+        return judged.lost == 0 ? 4 : 3;
     if (judged.state == CREASE_PART_SOLID)
         return -1;
-    return judged.state == CREASE_PART_SHELL && judged.loss < MOST_SHELL_LOSS;
+    if (judged.state == CREASE_PART_SHELL && judged.loss < MOST_SHELL_LOSS)
+        return 2;
+    return judged.outcome.summary.valid && judged.loss < MOST_PIECES_LOSS && shares_edges(judged);
 }
 
 bool is_better(const Judged &a, const Judged &b)

@@ -35,6 +35,8 @@ Judged judge(crease_context *context, const crease_cloud *cloud, const Job &job,
 
 /* Whether the solid is what the points say. */
 bool is_true_solid(const Judged &judged);
+/* Whether any two faces share an edge. */
+bool shares_edges(const Judged &judged);
 /* Whether a is more worth than b: state first, then regions lost or not, then loss. */
 bool is_better(const Judged &a, const Judged &b);
 

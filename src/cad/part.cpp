@@ -4,6 +4,7 @@
 /* Parts: the ways of building one are tried in turn until one gives a solid that the points lie on;
  * failing that, the best of what came out is taken. */
 #include "cad/apart.hpp"
+#include "cad/effort.hpp"
 #include "cad/format.hpp"
 #include "cad/judge.hpp"
 #include "cad/kernel.hpp"
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <sys/resource.h>
 
 namespace crease_cad
 {
@@ -49,10 +49,9 @@ crease_part::~crease_part()
 namespace crease_cad
 {
 
-/* Seconds of the processor: for all attempts at a solid, and for each other one. */
-static constexpr double SOLID_SECONDS = 12.0, SHELL_SECONDS = 8.0;
-static constexpr double LEAST_SECONDS = 3.0; /* with fewer left no attempt is begun */
-static constexpr double GOOD_LOSS = 0.04;    /* of a result: no other way is tried */
+/* Seconds of the processor after which an attempt hangs; work is limited by Effort. */
+static constexpr unsigned HUNG = 120;
+static constexpr double GOOD_LOSS = 0.04; /* of a result: no other way is tried */
 
 /* A way with its margin: the larger of a part of the diagonal and some spacings. */
 struct Step {
@@ -80,40 +79,23 @@ struct Search {
     const crease_cloud *cloud;
     const Job &given;
     bool as_bsplines;
-    double began; /* see seconds_apart() */
     std::unique_ptr<crease_regions, RegionsFree> coarser_regions;
     std::unique_ptr<const Job> coarser; /* with these */
     const Job *job;                     /* of the best */
     std::optional<Judged> best;
     std::string why_no_solid;
+    bool spent; /* an arrangement was too much work; with a larger margin it is even more */
 };
 
-/* Seconds of the processor that processes apart have taken so far. */
-static double seconds_apart()
-{
-    rusage usage = {};
-    getrusage(RUSAGE_CHILDREN, &usage);
-    const timeval &user = usage.ru_utime, &system = usage.ru_stime;
-    return (double)(user.tv_sec + system.tv_sec) + 1e-6 * (double)(user.tv_usec + system.tv_usec);
-}
-
-static double seconds_for(const Search &search, const Step &step)
-{
-    return step.for_solid ? SOLID_SECONDS - (seconds_apart() - search.began) : SHELL_SECONDS;
-}
-
-static Bounds bounds_for(const Search &search, const Step &step)
-{
-    return {(unsigned)std::ceil(seconds_for(search, step)),
-        "OpenCASCADE takes too long to intersect the surfaces",
-        "OpenCASCADE broke down over the surfaces", "cancelled before it was built"};
-}
+static constexpr Bounds bounds = {HUNG, "OpenCASCADE takes too long to intersect the surfaces",
+    "OpenCASCADE broke down over the surfaces", "cancelled before it was built"};
 
 /* What a failed attempt means for the search: cancelling and lack of memory end it. */
 static void note(Search &search, const Failure &failure)
 {
     if (failure.status == CREASE_ERROR_CANCELLED || failure.status == CREASE_ERROR_NO_MEMORY)
         throw failure;
+    search.spent = search.spent || failure.sentence == TOO_MUCH_WORK;
     if (search.why_no_solid.empty())
         search.why_no_solid = failure.sentence;
 }
@@ -148,9 +130,8 @@ static void attempt(Search &search, const Step &step, const Job &job)
     const double margin = std::max(step.diagonals * job.diagonal, step.spacings * job.spacing);
     std::vector<char> bytes;
     try {
-        bytes =
-            run_apart([&] { return pack(measure(job, step.way(job, margin), search.as_bsplines)); },
-                bounds_for(search, step));
+        bytes = run_apart(
+            [&] { return pack(measure(job, step.way(job, margin), search.as_bsplines)); }, bounds);
     } catch (const Failure &failure) {
         note(search, failure);
         return;
@@ -178,7 +159,9 @@ static void search_best(Search &search)
     for (const Step &step : steps) {
         if (is_enough(search, step))
             break;
-        if (seconds_for(search, step) < LEAST_SECONDS || (search.given.bordered && !step.for_open))
+        if (search.given.bordered && !step.for_open)
+            continue;
+        if (search.spent && step.way == arrange_solid)
             continue;
         if (step.coarser && search.best && is_true_solid(*search.best))
             continue;
@@ -217,7 +200,7 @@ static std::string message_of(const Search &search)
         (best.outcome.faces.size() == 1 ? " face" : " faces");
     const std::string what = best.state == CREASE_PART_SHELL
         ? "an open shell of " + faces + " with " + free_edges_of(best.outcome)
-        : faces + " side by side";
+        : faces + (shares_edges(best) ? " with " + free_edges_of(best.outcome) : " side by side");
     if (search.given.bordered)
         return best.outcome.why.empty() ? what : what + ": " + best.outcome.why;
     return what + ", no solid: " + search.why_no_solid;
@@ -290,8 +273,8 @@ crease_status crease_part_build(crease_context *context, const crease_cloud *clo
     return guard(context, "part", [&] {
         check(cloud, regions);
         const Job job(context, cloud, regions, network, options && options->open);
-        Search search = {context, cloud, job, options && options->bspline_faces, seconds_apart(),
-            {}, {}, nullptr, {}, ""};
+        Search search = {
+            context, cloud, job, options && options->bspline_faces, {}, {}, nullptr, {}, "", false};
         search_best(search);
         *out = part_of(search).release();
     });
