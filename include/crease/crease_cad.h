@@ -126,8 +126,10 @@ CREASE_API crease_part_options crease_part_options_default(void);
  * cells is the part. Fillets between planes are recognised and rolled along the edges that they
  * replace. Nothing passes for a solid unless OpenCASCADE finds it valid and closed and the points
  * lie on it: otherwise the faces that the points support become an open shell, or at last faces
- * side by side; never nothing. OpenCASCADE's work is done in processes of their own (fork), which
- * may take some 12 seconds of the processor. Not for several threads at the same time.
+ * side by side; never nothing. OpenCASCADE's work is done in processes of their own (fork); how
+ * many intersections it may look at is counted, so that the result does not depend on the machine's
+ * speed, unless one of these processes takes more than 30 seconds of the processor and is ended.
+ * Not for several threads at the same time.
  * regions: of this cloud; network: of these regions, or NULL; options may be NULL.
  * Errors: ARGUMENT (the regions are not of this cloud), NO_MEMORY, NUMERIC (not even faces come
  * out), CANCELLED (such a process was interrupted). */

@@ -50,7 +50,7 @@ namespace crease_cad
 {
 
 /* Seconds of the processor after which an attempt hangs; work is limited by Effort. */
-static constexpr unsigned HUNG = 120;
+static constexpr unsigned HUNG = 30;
 static constexpr double GOOD_LOSS = 0.04; /* of a result: no other way is tried */
 
 /* A way with its margin: the larger of a part of the diagonal and some spacings. */
@@ -87,15 +87,16 @@ struct Search {
     bool spent; /* an arrangement was too much work; with a larger margin it is even more */
 };
 
-static constexpr Bounds bounds = {HUNG, "OpenCASCADE takes too long to intersect the surfaces",
-    "OpenCASCADE broke down over the surfaces", "cancelled before it was built"};
+static constexpr const char *HANGS = "OpenCASCADE takes too long to intersect the surfaces";
+static constexpr Bounds bounds = {
+    HUNG, HANGS, "OpenCASCADE broke down over the surfaces", "cancelled before it was built"};
 
 /* What a failed attempt means for the search: cancelling and lack of memory end it. */
 static void note(Search &search, const Failure &failure)
 {
     if (failure.status == CREASE_ERROR_CANCELLED || failure.status == CREASE_ERROR_NO_MEMORY)
         throw failure;
-    search.spent = search.spent || failure.sentence == TOO_MUCH_WORK;
+    search.spent = search.spent || failure.sentence == TOO_MUCH_WORK || failure.sentence == HANGS;
     if (search.why_no_solid.empty())
         search.why_no_solid = failure.sentence;
 }
