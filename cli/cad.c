@@ -6,6 +6,11 @@
 #ifdef CREASE_HAVE_CAD
 #include "crease/crease_cad.h"
 
+bool cad_is_there(void)
+{
+    return true;
+}
+
 crease_status cad_check(crease_context *context, const char *path)
 {
     (void)context, (void)path;
@@ -18,12 +23,28 @@ crease_status cad_write_surfaces(
     return crease_cad_write(context, surfaces, count, path);
 }
 
+crease_status cad_write_trim(crease_context *context, const crease_trim *trim, const char *path)
+{
+    return crease_cad_trim_write(context, trim, path);
+}
+
+crease_status cad_trim_mesh(crease_context *context, const crease_trim *trim, crease_mesh **out)
+{
+    const crease_status status = crease_cad_trim_mesh(context, trim, 0.0, out);
+    return status == CREASE_ERROR_NUMERIC ? CREASE_OK : status;
+}
+
 static crease_status write_curves(
     crease_context *context, const crease_curve *const *curves, size_t count, const char *path)
 {
     return crease_cad_curves_write(context, curves, count, path);
 }
 #else
+bool cad_is_there(void)
+{
+    return false;
+}
+
 crease_status cad_check(crease_context *context, const char *path)
 {
     return crease_context_fail(context, CREASE_ERROR_UNSUPPORTED,
@@ -35,6 +56,19 @@ crease_status cad_write_surfaces(
 {
     (void)surfaces, (void)count;
     return cad_check(context, path);
+}
+
+crease_status cad_write_trim(crease_context *context, const crease_trim *trim, const char *path)
+{
+    (void)trim;
+    return cad_check(context, path);
+}
+
+crease_status cad_trim_mesh(crease_context *context, const crease_trim *trim, crease_mesh **out)
+{
+    (void)context, (void)trim;
+    *out = NULL;
+    return CREASE_OK;
 }
 
 static crease_status write_curves(

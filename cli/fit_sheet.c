@@ -14,13 +14,19 @@
 
 /* A larger net would hide in a figure what it surrounds; on the page it can be switched off. */
 enum { MOST_NET_IN_FIGURE = 100 };
+
+/* Spacings between the points and a sheet that does not follow them. */
+static const double FAR_OFF = 2.0;
+
 /* What the fit has brought: everything that is written. */
 typedef struct result {
     crease_sheet *sheet;
     crease_surface **faces;
     size_t face_count;
-    crease_curve **lines;
+    crease_curve **lines; /* as long as the sheet */
     size_t line_count;
+    crease_trim *trim;       /* NULL: the whole sheet is written */
+    crease_mesh *mesh;       /* of the trimmed faces */
     crease_cloud *cloud;     /* the input with variance and deviation */
     crease_cloud *projected; /* the same on the surface */
 } result;
@@ -31,6 +37,8 @@ static void result_free(result *all)
         crease_curve_free(all->lines[i]);
     free(all->lines);
     crease_surfaces_free(all->faces, all->face_count);
+    crease_trim_free(all->trim);
+    crease_mesh_free(all->mesh);
     crease_cloud_free(all->projected);
     crease_cloud_free(all->cloud);
     crease_sheet_free(all->sheet);
@@ -55,6 +63,26 @@ static crease_status make_lines(crease_context *context, result *all)
     return status;
 }
 
+/* Only where something is cut off. */
+static crease_status trim(crease_context *context, const settings *s, report *r, result *all)
+{
+    if (s->no_trim || s->method == METHOD_AVERAGING)
+        return CREASE_OK;
+    crease_status status = crease_sheet_trim(context, all->sheet, &all->trim);
+    bool keep = status == CREASE_OK && !crease_trim_is_whole(all->trim);
+    if (keep && cad_is_there()) {
+        status = cad_trim_mesh(context, all->trim, &all->mesh);
+        keep = all->mesh != NULL;
+        if (!keep && status == CREASE_OK)
+            report_line(r, "the sheet is not trimmed: its faces would not be valid");
+    }
+    if (!keep) {
+        crease_trim_free(all->trim);
+        all->trim = NULL;
+    }
+    return status;
+}
+
 static crease_status make_clouds(crease_context *context, const crease_cloud *cloud, result *all)
 {
     const double *variance = crease_sheet_variance(all->sheet);
@@ -75,13 +103,15 @@ static crease_status make_clouds(crease_context *context, const crease_cloud *cl
 }
 
 static crease_status make_result(
-    crease_context *context, const settings *s, const crease_cloud *cloud, result *all)
+    crease_context *context, const settings *s, report *r, const crease_cloud *cloud, result *all)
 {
     crease_status status = all->sheet ? CREASE_OK : fit(context, s, cloud, &all->sheet);
     if (status == CREASE_OK)
         status = crease_sheet_faces(context, all->sheet, &all->faces, &all->face_count);
     if (status == CREASE_OK)
         status = make_lines(context, all);
+    if (status == CREASE_OK)
+        status = trim(context, s, r, all);
     if (status == CREASE_OK)
         status = make_clouds(context, cloud, all);
     return status;
@@ -124,15 +154,64 @@ static void describe_surface(report *r, const crease_surface *surface)
     }
 }
 
+static cJSON *curve_to_json(const crease_curve *curve)
+{
+    const int order = crease_curve_order(curve);
+    const size_t count = crease_curve_count(curve);
+    cJSON *object = cJSON_CreateObject(), *points = cJSON_CreateArray();
+    cJSON_AddNumberToObject(object, "order", order);
+    cJSON_AddItemToObject(
+        object, "knots", cJSON_CreateDoubleArray(crease_curve_knots(curve), (int)count + order));
+    for (size_t i = 0; i < count; i++)
+        cJSON_AddItemToArray(
+            points, cJSON_CreateDoubleArray(crease_curve_control_points(curve) + 3 * i, 2));
+    cJSON_AddItemToObject(object, "control_points", points);
+    return object;
+}
+
+/* Edges are numbered from 1 in loops, where those that run backwards are negative. */
+static cJSON *loop_to_json(const crease_trim *from, size_t face, size_t loop)
+{
+    size_t count;
+    const crease_trim_half *const halves = crease_trim_loop(from, face, loop, &count);
+    cJSON *list = cJSON_CreateArray();
+    for (size_t i = 0; i < count; i++) {
+        const double number = (double)halves[i].edge + 1.0;
+        cJSON_AddItemToArray(list, cJSON_CreateNumber(halves[i].reversed ? -number : number));
+    }
+    return list;
+}
+
+static void describe_trim(report *r, const result *all)
+{
+    size_t holes = 0;
+    cJSON *object = cJSON_AddObjectToObject(r->root, "trim");
+    cJSON *edges = cJSON_AddArrayToObject(object, "edges");
+    cJSON *faces = cJSON_AddArrayToObject(object, "faces");
+    for (size_t i = 0; i < crease_trim_edge_count(all->trim); i++)
+        cJSON_AddItemToArray(edges, curve_to_json(crease_trim_edge_at(all->trim, i).curve));
+    for (size_t f = 0; f < crease_trim_face_count(all->trim); f++) {
+        cJSON *face = cJSON_CreateObject(), *loops = cJSON_AddArrayToObject(face, "loops");
+        for (size_t l = 0; l < crease_trim_loop_count(all->trim, f); l++)
+            cJSON_AddItemToArray(loops, loop_to_json(all->trim, f, l));
+        holes += crease_trim_loop_count(all->trim, f) - 1;
+        cJSON_AddItemToArray(faces, face);
+    }
+    report_line(r, "trimmed to the border of the points, holes inside faces: %zu", holes);
+}
+
 static void describe(report *r, const result *all)
 {
+    const size_t faces = all->trim ? crease_trim_face_count(all->trim) : all->face_count;
     const size_t count = crease_sheet_point_count(all->sheet);
     const deviation_summary d = deviation_summarise(crease_sheet_deviations(all->sheet), count);
     const crease_surface_parts parts = crease_surface_parts_of(crease_sheet_surface(all->sheet));
     deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
-    cJSON_AddNumberToObject(r->root, "face_count", (double)all->face_count);
+    cJSON_AddNumberToObject(r->root, "face_count", (double)faces);
     report_line(r, "%zu x %zu control points, %zu faces, %zu creases", parts.count[0],
-        parts.count[1], all->face_count, all->line_count);
+        parts.count[1], faces, all->line_count);
+    if (all->trim)
+        describe_trim(r, all);
     describe_lines(r, all);
     report_line(r, "deviation: rms %.4g, 95 %% below %.4g, max %.4g", d.rms, d.p95, d.most);
     describe_surface(r, crease_sheet_surface(all->sheet));
@@ -141,6 +220,8 @@ static void describe(report *r, const result *all)
 static crease_status write_cad(crease_context *context, const void *from, const char *path)
 {
     const result *const all = from;
+    if (all->trim)
+        return cad_write_trim(context, all->trim, path);
     return cad_write_surfaces(
         context, (const crease_surface *const *)all->faces, all->face_count, path);
 }
@@ -148,6 +229,8 @@ static crease_status write_cad(crease_context *context, const void *from, const 
 static crease_status write_mesh(crease_context *context, const void *from, const char *path)
 {
     const result *const all = from;
+    if (all->mesh)
+        return crease_mesh_write(context, all->mesh, path);
     crease_mesh *mesh = NULL;
     crease_status status = crease_mesh_create(
         context, (const crease_surface *const *)all->faces, all->face_count, 0.0, &mesh);
@@ -157,28 +240,42 @@ static crease_status write_mesh(crease_context *context, const void *from, const
     return status;
 }
 
+/* The creases as far as the sheet goes. */
+static const crease_curve *const *creases_of(const result *all, size_t *count)
+{
+    *count = all->trim ? crease_trim_crease_count(all->trim) : all->line_count;
+    return all->trim ? crease_trim_creases(all->trim) : (const crease_curve *const *)all->lines;
+}
+
 static crease_status show(crease_context *context, const void *from, bool page, crease_scene *scene)
 {
     const result *const all = from;
     const crease_surface *whole = crease_sheet_surface(all->sheet);
     const crease_surface_parts parts = crease_surface_parts_of(whole);
     const bool net = page || parts.count[0] * parts.count[1] <= MOST_NET_IN_FIGURE;
-    const crease_status status =
-        crease_scene_add_surfaces(context, scene, "surface", &whole, 1, net);
-    return status != CREASE_OK || all->line_count == 0
+    size_t count;
+    const crease_curve *const *const creases = creases_of(all, &count);
+    crease_status status = CREASE_OK;
+    if (!all->mesh)
+        status = crease_scene_add_surfaces(context, scene, "surface", &whole, 1, net);
+    else
+        status = crease_scene_add_mesh(context, scene, "surface", all->mesh);
+    if (status == CREASE_OK && all->mesh && net)
+        status = crease_scene_add_nets(context, scene, "surface", &whole, 1);
+    return status != CREASE_OK || count == 0
         ? status
-        : crease_scene_add_curves(
-              context, scene, "creases", (const crease_curve *const *)all->lines, all->line_count);
+        : crease_scene_add_curves(context, scene, "creases", creases, count);
 }
 
 static crease_status write_creases(
     crease_context *context, report *r, const void *from, const char *path)
 {
     const result *const all = from;
-    const crease_curve *const *lines = (const crease_curve *const *)all->lines;
+    size_t count;
+    const crease_curve *const *const lines = creases_of(all, &count);
     if (target_of(path, FIT_CREASES) == TARGET_CAD)
-        return cad_write_creases(context, r, lines, all->line_count, path);
-    return crease_curves_write(context, lines, all->line_count, 0.0, path);
+        return cad_write_creases(context, r, lines, count, path);
+    return crease_curves_write(context, lines, count, 0.0, path);
 }
 
 static crease_status write_outputs(
@@ -195,17 +292,45 @@ static crease_status write_outputs(
     return outputs_write(context, s, r, &made);
 }
 
+/* A sheet of points that lie one over another, as those of a whole part do, passes between them. */
+static crease_status tell_of_layers(
+    crease_context *context, report *r, const crease_cloud *cloud, const result *all)
+{
+    const size_t count = crease_cloud_count(cloud);
+    const double *const points = crease_cloud_points(cloud);
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    bool suits = true;
+    for (size_t i = 0; i < 3 * count; i++) {
+        low[i % 3] = fmin(low[i % 3], points[i]);
+        high[i % 3] = fmax(high[i % 3], points[i]);
+    }
+    const double spacing =
+        hypot(hypot(high[0] - low[0], high[1] - low[1]), high[2] - low[2]) / sqrt((double)count);
+    const deviation_summary d = deviation_summarise(crease_sheet_deviations(all->sheet), count);
+    if (!(d.p95 > FAR_OFF * spacing))
+        return CREASE_OK;
+    const crease_status status = crease_sheet_suits(context, cloud, &suits);
+    if (status == CREASE_OK && !suits)
+        report_line(r,
+            "these points lie one over another, and the sheet passes between them: take --method "
+            "part for a closed part");
+    return status;
+}
+
 crease_status fit_sheet(crease_context *context, const settings *s, report *r,
     const crease_cloud *cloud, crease_sheet *ready)
 {
     result all = {.sheet = ready};
-    crease_status status = make_result(context, s, cloud, &all);
+    crease_status status = make_result(context, s, r, cloud, &all);
     if (status == CREASE_OK) {
         report_stage(r, "fit");
         cJSON_AddStringToObject(r->root, "method", fit_method_names[s->method]);
         describe(r, &all);
-        status = write_outputs(context, s, r, &all);
+        if (s->method == METHOD_SHEET)
+            status = tell_of_layers(context, r, cloud, &all);
     }
+    if (status == CREASE_OK)
+        status = write_outputs(context, s, r, &all);
     result_free(&all);
     return status;
 }

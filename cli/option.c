@@ -49,6 +49,11 @@ const option option_table[] = {
         "within "
         "their errors as the points have them",
         NULL},
+    {"no-trim", 0, OPTION_FLAG, NULL, FOR_FIT, AT(no_trim), 0, 0, NULL,
+        "sheet: write its full rectangle, also where no points are, instead of trimming it to "
+        "their "
+        "border and their holes",
+        NULL},
     {"sigma", 0, OPTION_REAL, "S", FOR_DETECT | FOR_FIT | FOR_FILTER, AT(sigma), 0, 1e150, NULL,
         "noise of the points along the normal, when it is known: a length; each point is then "
         "taken to err by itself. A sheet finds its own",

@@ -53,6 +53,7 @@ typedef struct settings {
     int method;   /* fit_method */
     int faces;    /* face_kind */
     bool no_snap;
+    bool no_trim;
     crease_averaging_options averaging;
     crease_sheet_options sheet;
     int orientation; /* crease_orientation, shared by both methods */

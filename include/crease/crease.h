@@ -716,6 +716,9 @@ CREASE_API crease_status crease_sheet_line_curve(
 CREASE_API void crease_sheet_frame(const crease_sheet *sheet, double rotation[9], double origin[3]);
 /** Number of data points the sheet was fitted to. */
 CREASE_API size_t crease_sheet_point_count(const crease_sheet *sheet);
+/** Parameters u, v of every data point's projection, point_count x 2; NULL with the paper's
+ * algorithm. */
+CREASE_API const double *crease_sheet_parameters(const crease_sheet *sheet);
 /** Step 11: every data point projected onto the sheet, point_count x 3. */
 CREASE_API const double *crease_sheet_projected(const crease_sheet *sheet);
 /** Signed distance of every data point to the sheet. */
@@ -836,6 +839,9 @@ CREASE_API crease_status crease_scene_add_cloud(
 /** Adds surfaces as one layer, and their control nets as another when nets is true. */
 CREASE_API crease_status crease_scene_add_surfaces(crease_context *context, crease_scene *scene,
     const char *name, const crease_surface *const *surfaces, size_t count, bool nets);
+/** Adds the control nets of surfaces as one layer, called "NAME control net". */
+CREASE_API crease_status crease_scene_add_nets(crease_context *context, crease_scene *scene,
+    const char *name, const crease_surface *const *surfaces, size_t count);
 /** Adds a mesh as one layer of surfaces, its triangles' owners being the surfaces. Sides of
  * triangles that share no vertices with others are drawn as edges. */
 CREASE_API crease_status crease_scene_add_mesh(

@@ -8,6 +8,7 @@
 #define CREASE_CREASE_CAD_H
 
 #include "crease/crease.h"
+#include "crease/crease_trim.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -41,6 +42,20 @@ typedef struct crease_cad_info {
  * to write, a shell with one side, OpenCASCADE finds fault: the sentence says with which face). */
 CREASE_API crease_status crease_cad_write(
     crease_context *context, const crease_surface *const *surfaces, size_t count, const char *path);
+
+/** Writes a trimmed sheet: STEP (AP242), IGES or BREP by extension. Faces lie on the smooth pieces
+ * of the sheet and share their edges along knot lines, which are these lines themselves; other
+ * edges are cubic curves within a ten-millionth of the sheet's size of it, as a rule. Units and
+ * bytes as in crease_cad_write(). Errors: ARGUMENT (unknown extension), CANNOT_WRITE, NUMERIC
+ * (OpenCASCADE finds fault with it). */
+CREASE_API crease_status crease_cad_trim_write(
+    crease_context *context, const crease_trim *trim, const char *path);
+/** Triangles within the tolerance (a length) of a trimmed sheet; their owners are the numbers of
+ * its faces, which share places along their edges, but no vertices. tolerance 0: 1/2000 of the
+ * diagonal. Errors: ARGUMENT, NUMERIC (as above, or a face that cannot be triangulated),
+ * NO_MEMORY. */
+CREASE_API crease_status crease_cad_trim_mesh(
+    crease_context *context, const crease_trim *trim, double tolerance, crease_mesh **out);
 
 /** Writes curves, such as creases, as edges in space: STEP (AP242), IGES or BREP by extension. Each
  * edge is the curve itself, not an approximation; it is cut only where CAD programs expect no kink:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: The crease authors
 
-"""crease.h and crease_cad.h as ctypes: structures, enumerations, functions.
+"""crease.h, crease_trim.h and crease_cad.h as ctypes: structures, enumerations, functions.
 
 tests/python/test_declarations.py holds them against the headers and against a C compiler.
 """
@@ -193,6 +193,14 @@ class Line(Structure):
                 ("standard_error", c_double)]
 
 
+class TrimEdge(Structure):
+    _fields_ = [("curve", c_void_p), ("vertices", c_uint32 * 2), ("faces", c_int32 * 2)]
+
+
+class TrimHalf(Structure):
+    _fields_ = [("edge", c_uint32), ("reversed", c_bool)]
+
+
 class AveragingOptions(Structure):
     _fields_ = [("detect", DetectOptions), ("orientation", c_int), ("rotation", c_double * 9),
                 ("net", c_size_t * 2), ("averaging_neighbours", c_int), ("passes", c_int),
@@ -348,6 +356,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "crease_sheet_line_curve": (c_int, _object, _object, c_size_t, _out),
     "crease_sheet_frame": (None, _object, _numbers, _numbers),
     "crease_sheet_point_count": (c_size_t, _object),
+    "crease_sheet_parameters": (_numbers, _object),
     "crease_sheet_projected": (_numbers, _object),
     "crease_sheet_deviations": (_numbers, _object),
     "crease_sheet_variance": (_numbers, _object),
@@ -368,6 +377,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "crease_scene_create": (c_int, _object, c_char_p, _out),
     "crease_scene_free": (None, _object),
     "crease_scene_add_cloud": (c_int, _object, _object, c_char_p, _object),
+    "crease_scene_add_nets": (c_int, _object, _object, c_char_p, _numbers, c_size_t),
     "crease_scene_add_surfaces": (c_int, _object, _object, c_char_p, _numbers, c_size_t, c_bool),
     "crease_scene_add_mesh": (c_int, _object, _object, c_char_p, _object),
     "crease_scene_add_curves": (c_int, _object, _object, c_char_p, _numbers, c_size_t),
@@ -377,8 +387,23 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "crease_page_write": (c_int, _object, _object, c_char_p),
 }
 
+#: Those of crease_trim.h.
+TRIM_FUNCTIONS: dict[str, tuple[Any, ...]] = {
+    "crease_sheet_trim": (c_int, _object, _object, _out),
+    "crease_trim_free": (None, _object),
+    "crease_trim_is_whole": (c_bool, _object),
+    "crease_trim_edge_at": (TrimEdge, _object, c_size_t),
+    "crease_trim_face_count": (c_size_t, _object),
+    "crease_trim_loop_count": (c_size_t, _object, c_size_t),
+    "crease_trim_loop": (POINTER(TrimHalf), _object, c_size_t, c_size_t, POINTER(c_size_t)),
+    "crease_trim_crease_count": (c_size_t, _object),
+    "crease_trim_creases": (_numbers, _object),
+}
+
 #: Those of crease_cad.h, which a library built without OpenCASCADE lacks.
 CAD_FUNCTIONS: dict[str, tuple[Any, ...]] = {
+    "crease_cad_trim_write": (c_int, _object, _object, c_char_p),
+    "crease_cad_trim_mesh": (c_int, _object, _object, c_double, _out),
     "crease_cad_write": (c_int, _object, _numbers, c_size_t, c_char_p),
     "crease_cad_curves_write": (c_int, _object, _numbers, c_size_t, c_char_p),
     "crease_cad_info_read": (c_int, _object, c_char_p, POINTER(CadInfo)),

@@ -24,12 +24,14 @@ from ._work import ProgressCallback, Work
 _PART = {"sigma", "faces", "no_snap"}
 _TURN = {"net", "orientation", "rotation"}
 _SHEET = _TURN | {"order", "most_creases", "smoothing", "tolerance"}
+#: Of sheets, but not a reason to take one.
+_WRITING = {"no_trim"}
 _AVERAGING = _TURN | {"neighbours", "resamples", "averaging_neighbours", "passes",
                       "marking_neighbours", "mark_threshold", "row_threshold", "multiplicity"}
 #: With fewer points there are no regions to speak of.
 _LEAST_FOR_SHELL = 500
-_TAKES = {"automatic": _PART | _SHEET, "part": _PART, "shell": _PART,
-          "sheet": _SHEET, "averaging": _AVERAGING}
+_TAKES = {"automatic": _PART | _SHEET | _WRITING, "part": _PART, "shell": _PART,
+          "sheet": _SHEET | _WRITING, "averaging": _AVERAGING}
 
 
 def _check(method: str, given: Iterable[str]) -> None:
@@ -99,7 +101,7 @@ def _wants_shell(work: Work, cloud: Cloud, sheet: Handle, given: dict[str, Any])
 def fit(points: Points, *, method: Literal["sheet"], net: ArrayLike | None = ...,
         orientation: Literal["automatic", "none"] | None = ..., rotation: ArrayLike | None = ...,
         order: int | None = ..., most_creases: int | None = ..., smoothing: float | None = ...,
-        tolerance: float | None = ..., seed: int = ..., threads: int = ...,
+        tolerance: float | None = ..., no_trim: bool = ..., seed: int = ..., threads: int = ...,
         progress: ProgressCallback | None = ...) -> Sheet: ...
 
 
@@ -131,7 +133,7 @@ def fit(points: Points, *, method: Literal["automatic"] = ..., sigma: float | No
         net: ArrayLike | None = ...,
         orientation: Literal["automatic", "none"] | None = ..., rotation: ArrayLike | None = ...,
         order: int | None = ..., most_creases: int | None = ..., smoothing: float | None = ...,
-        tolerance: float | None = ..., seed: int = ..., threads: int = ...,
+        tolerance: float | None = ..., no_trim: bool = ..., seed: int = ..., threads: int = ...,
         progress: ProgressCallback | None = ...) -> Sheet | Part: ...
 
 
@@ -152,7 +154,8 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
     Of sheet and averaging: net: control points across and along the edge; orientation: automatic or
     none; rotation: 3 x 3, turns the cloud instead.
     Of sheet: order; most_creases in each direction; smoothing: weight of the thin-plate term;
-    tolerance: refine until the rms deviation is below.
+    tolerance: refine until the rms deviation is below; no_trim: write the whole sheet, not only as far
+    as the points go.
     Of averaging: neighbours, resamples, averaging_neighbours, passes, marking_neighbours,
     mark_threshold, row_threshold, multiplicity.
     threads, progress: as in crease.detect().
@@ -181,4 +184,5 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
                               snap=not given.get("no_snap", False))
             if part.state == "shell":
                 return part
-    return Sheet(cloud, handle, method)
+    trim = method != "averaging" and not given.get("no_trim", False)
+    return Sheet(cloud, handle, method, trim)

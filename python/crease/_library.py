@@ -10,7 +10,7 @@ from ctypes import CDLL
 from pathlib import Path
 from typing import Any, Iterator
 
-from ._declarations import CAD_FUNCTIONS, FUNCTIONS, INTERFACE
+from ._declarations import CAD_FUNCTIONS, FUNCTIONS, INTERFACE, TRIM_FUNCTIONS
 from ._errors import Failure
 
 _PACKAGED = Path(__file__).with_name("libcrease.so")
@@ -51,6 +51,7 @@ def _open() -> tuple[CDLL, bool]:
         raise ImportError(f"crease: the shared library is of version {version}, and this package "
                           f"is for {INTERFACE}; install both from the same source")
     _declare(library, FUNCTIONS)
+    _declare(library, TRIM_FUNCTIONS)
     has_cad = hasattr(library, "crease_cad_write")
     if has_cad:
         _declare(library, CAD_FUNCTIONS)

@@ -34,6 +34,7 @@ class Layers:
     title: str
     cloud: Cloud | None = None
     surfaces: Sequence[Held] = ()
+    nets: Sequence[Held] = ()  #: surfaces whose control nets are shown, and they are not
     control_points: int = 0
     mesh: Held | None = None
     curves: Sequence[Held] = field(default_factory=list)
@@ -51,8 +52,11 @@ def _scene(work: Work, layers: Layers, page: bool) -> Handle:
     if layers.cloud is not None:
         work.call("crease_scene_add_cloud", scene, b"points", layers.cloud._handle)
         describe(work, scene, layers.of_regions)
+    net = page or layers.control_points <= _MOST_NET_IN_FIGURE
+    if layers.nets and net:
+        work.call("crease_scene_add_nets", scene, b"surface", addresses(layers.nets),
+                  len(layers.nets))
     if layers.surfaces:
-        net = page or layers.control_points <= _MOST_NET_IN_FIGURE
         work.call("crease_scene_add_surfaces", scene, b"surface", addresses(layers.surfaces),
                   len(layers.surfaces), net)
     if layers.curves:

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from ._cloud import Cloud
 from ._detect import write_curves
 from ._deviation import Deviation, summarise
-from ._library import LIBRARY
+from ._errors import Failure
+from ._library import HAS_CAD, LIBRARY
 from ._memory import Borrowed, Handle, addresses, borrowed, view
 from ._seen import Layers, Seen
 from ._spline import Curve, Mesh, Surface
@@ -41,8 +42,8 @@ class Sheet(Seen):
 
     _own_targets = Target.CAD | Target.MESH
 
-    def __init__(self, cloud: Cloud, handle: Handle, method: str) -> None:
-        self._cloud, self._handle = cloud, handle
+    def __init__(self, cloud: Cloud, handle: Handle, method: str, trim: bool = False) -> None:
+        self._cloud, self._handle, self._trim = cloud, handle, trim
         self.method = method
 
     def __repr__(self) -> str:
@@ -69,6 +70,51 @@ class Sheet(Seen):
         number = count.value
         owner = Handle(array.value, lambda at: LIBRARY.crease_surfaces_free(at, number))
         return [Surface(each) for each in borrowed(owner, array.value, number)]
+
+    @cached_property
+    def _trimmed(self) -> tuple[Handle, Mesh | None] | None:
+        """What is left when the sheet ends where the points do, and its triangles; None when it is
+        whole."""
+        if not self._trim:
+            return None
+        with Work() as work:
+            trimmed = work.make("trim", "crease_sheet_trim", self._handle)
+            if LIBRARY.crease_trim_is_whole(trimmed):
+                return None
+            if not HAS_CAD:
+                return trimmed, None
+            try:
+                return trimmed, Mesh(work.make("mesh", "crease_cad_trim_mesh", trimmed, 0.0))
+            except Failure:
+                return None
+
+    @cached_property
+    def loops(self) -> list[list[list[Curve]]] | None:
+        """Of every face of the trimmed sheet its loops, the first one around it and the others
+        around its holes: curves in u and v, x and y of their points, not all of which run the way
+        the loop does. None when the whole sheet is written."""
+        if self._trimmed is None:
+            return None
+        trimmed, found = self._trimmed[0], []
+        for face in range(LIBRARY.crease_trim_face_count(trimmed)):
+            loops = []
+            for loop in range(LIBRARY.crease_trim_loop_count(trimmed, face)):
+                count = c_size_t()
+                halves = LIBRARY.crease_trim_loop(trimmed, face, loop, byref(count))
+                loops.append([Curve(Borrowed(
+                    LIBRARY.crease_trim_edge_at(trimmed, halves[i].edge).curve, trimmed))
+                    for i in range(count.value)])
+            found.append(loops)
+        return found
+
+    def _crease_curves(self) -> list[Curve]:
+        """The creases as far as the sheet goes."""
+        if self._trimmed is None:
+            return [line.curve for line in self.creases]
+        trimmed = self._trimmed[0]
+        return [Curve(each) for each in borrowed(
+            trimmed, LIBRARY.crease_trim_creases(trimmed),
+            LIBRARY.crease_trim_crease_count(trimmed))]
 
     @cached_property
     def creases(self) -> list[Line]:
@@ -120,7 +166,9 @@ class Sheet(Seen):
 
     @cached_property
     def mesh(self) -> Mesh:
-        """Triangles within 1/2000 of the diagonal of the faces."""
+        """Triangles within 1/2000 of the diagonal of the faces, as far as the points go."""
+        if self._trimmed is not None and self._trimmed[1] is not None:
+            return self._trimmed[1]
         return self._mesh(0.0)
 
     def _mesh(self, tolerance: float) -> Mesh:
@@ -145,7 +193,7 @@ class Sheet(Seen):
         """Writes the creases: as lines to .ply .obj .csv, as the curves that they are to .step .stp
         .iges .igs .brep."""
         with Work() as work:
-            write_curves(work, [line.curve for line in self.creases], path)
+            write_curves(work, self._crease_curves(), path)
 
     def write_points(self, path: Path) -> None:
         """Writes the cloud projected onto the surface, with the field `deviation`."""
@@ -155,12 +203,18 @@ class Sheet(Seen):
     def _write_own(self, work: Work, kind: Target, path: Path) -> None:
         if kind is Target.MESH:
             work.call("crease_mesh_write", self.mesh._handle, encoded(path))
+        elif self._trimmed is not None:
+            work.call("crease_cad_trim_write", self._trimmed[0], encoded(path))
         else:
             work.call("crease_cad_write", self._face_pointers(), len(self.faces), encoded(path))
 
     def _layers(self) -> Layers:
         surface = self.surface
         rows, columns = surface.control_points.shape[:2]
-        return Layers("fit", cloud=self.cloud, surfaces=[surface._handle],
-                      control_points=rows * columns,
-                      curves=[line.curve._handle for line in self.creases])
+        layers = Layers("fit", cloud=self.cloud, surfaces=[surface._handle],
+                        control_points=rows * columns,
+                        curves=[curve._handle for curve in self._crease_curves()])
+        if self._trimmed is not None and self._trimmed[1] is not None:
+            layers.surfaces, layers.nets = [], [surface._handle]
+            layers.mesh = self._trimmed[1]._handle
+        return layers

@@ -54,7 +54,7 @@ static void add_face(const TopoDS_Face &face, uint32_t owner, Triangles &out)
     add_triangles(*mesh, face.Orientation() == TopAbs_REVERSED, out);
 }
 
-static double diagonal(const TopoDS_Shape &shape)
+double diagonal(const TopoDS_Shape &shape)
 {
     Bnd_Box box;
     BRepBndLib::Add(shape, box, false);

@@ -21,6 +21,8 @@ struct Triangles {
     std::vector<uint32_t> owners;    /* number of the face, from 0 */
 };
 
+/* Of the box around a shape. */
+double diagonal(const TopoDS_Shape &shape);
 /* Triangulates all faces to within the tolerance, a length; neighbouring faces have the same points
  * on their edges. 0: 1/100000 of the diagonal. Faces are numbered as TopExp finds them. Throws
  * Failure when a face cannot be triangulated. */

@@ -300,15 +300,18 @@ static crease_status project(crease_context *context, work *w, const crease_draf
 {
     crease_sheet *const sheet = w->sheet;
     crease_foot *feet = crease_allocate(context, w->count, sizeof *feet);
+    sheet->parameters = crease_allocate(context, w->count, 2 * sizeof(double));
     sheet->projected = crease_allocate(context, w->count, 3 * sizeof(double));
     sheet->deviations = crease_allocate(context, w->count, sizeof(double));
-    crease_status status =
-        feet && sheet->projected && sheet->deviations ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+    crease_status status = feet && sheet->parameters && sheet->projected && sheet->deviations
+        ? CREASE_OK
+        : CREASE_ERROR_NO_MEMORY;
     if (status == CREASE_OK)
         status = draft ? crease_closest_feet(context, &draft->height, &draft->layout, &draft->frame,
                              sheet->surface, w->points, w->count, feet)
                        : crease_surface_project(context, sheet->surface, w->points, w->count, feet);
     for (size_t i = 0; i < w->count && status == CREASE_OK; i++) {
+        memcpy(sheet->parameters + 2 * i, feet[i].uv, sizeof feet[i].uv);
         memcpy(sheet->projected + 3 * i, feet[i].point, sizeof feet[i].point);
         sheet->deviations[i] = feet[i].distance;
     }

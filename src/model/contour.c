@@ -274,9 +274,12 @@ static crease_status sample(struct task *task, const crease_smooth *line, const 
         memcpy(out->points + 3 * out->count++, first, 3 * sizeof *first);
     for (size_t i = 0; i <= count; i++) {
         double *const place = out->points + 3 * out->count;
-        crease_smooth_at(line, line->begin + line->length * (double)i / (double)count, place);
-        const bool keep = !(first && is_beyond(place, first, back, SHORT_OF * s)) &&
-            !(last && is_beyond(place, last, on, SHORT_OF * s));
+        const double at = line->length * (double)i / (double)count;
+        crease_smooth_at(line, line->begin + at, place);
+        const bool early = first && at < CORNER_REACH * s;
+        const bool late = last && at > line->length - CORNER_REACH * s;
+        const bool keep = !(early && is_beyond(place, first, back, SHORT_OF * s)) &&
+            !(late && is_beyond(place, last, on, SHORT_OF * s));
         out->count += keep;
     }
     if (last)

@@ -4,16 +4,16 @@
 #include "model/rim.h"
 
 #include "base/memory.h"
-#include "base/select.h"
 #include "base/vector.h"
 #include "model/landing.h"
+#include "space/density.h"
 #include "space/outline.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { AROUND = 8, SAMPLED = 4000, LEAST_POINTS = 12 };
+enum { LEAST_POINTS = 12 };
 
 static const double DISC = 2.5;          /* spacings: radius of the disc that is rolled */
 static const double SPARSE_DISC = 2.0;   /* the same where points are sparse, in spacings there */
@@ -21,8 +21,6 @@ static const double SPARSE_SHARE = 0.95; /* of the points that are denser than t
 static const double BESIDE = 0.9;        /* discs from an edge: its side, not the border */
 static const double LEAST_RUN = 2.0;     /* discs: a shorter way off an edge is none */
 static const double LEAST_LOOP = 8.0;    /* spacings around a hole or an island */
-
-static const double PI = 3.14159265358979323846;
 
 struct task {
     crease_graph *graph;
@@ -34,34 +32,13 @@ struct task {
     crease_rims *rims;
 };
 
-/* Local spacing of a sample of the points: the radius of the disc follows the sparse ones. */
+/* The radius of the disc follows the sparse points. */
 static crease_status choose_disc(struct task *task)
 {
-    const double s = task->graph->survey->spacing;
-    const size_t step = task->count / SAMPLED + 1, samples = (task->count - 1) / step + 1;
-    crease_context *const context = task->graph->context;
-    crease_tree *tree = NULL;
-    double *const queries = crease_allocate(context, samples, 3 * sizeof *queries);
-    double *const squared = crease_allocate(context, samples, AROUND * sizeof *squared);
-    uint32_t *const near = crease_allocate(context, samples, AROUND * sizeof *near);
-    crease_status status = queries && squared && near ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
-    for (size_t i = 0; i < samples && status == CREASE_OK; i++)
-        memcpy(queries + 3 * i, task->points + 3 * i * step, 3 * sizeof *queries);
-    if (status == CREASE_OK)
-        status = crease_tree_create(context, task->points, task->count, &tree);
-    if (status == CREASE_OK)
-        status = crease_tree_nearest(context, tree, queries, samples, AROUND, near, squared);
-    for (size_t i = 0; i < samples && status == CREASE_OK; i++)
-        squared[i] = squared[AROUND * i + AROUND - 1];
-    if (status == CREASE_OK) {
-        const size_t rank = (size_t)(SPARSE_SHARE * (double)(samples - 1));
-        const double sparse = sqrt(PI * crease_select(squared, samples, rank) / AROUND);
-        task->disc = fmax(DISC * s, SPARSE_DISC * sparse);
-    }
-    crease_tree_free(tree);
-    free(queries);
-    free(squared);
-    free(near);
+    double sparse = 0.0;
+    const crease_status status = crease_density_spacings(
+        task->graph->context, task->points, task->count, &SPARSE_SHARE, 1, &sparse);
+    task->disc = fmax(DISC * task->graph->survey->spacing, SPARSE_DISC * sparse);
     return status;
 }
 

@@ -18,6 +18,7 @@ void crease_sheet_free(crease_sheet *sheet)
         return;
     crease_surface_free(sheet->surface);
     free(sheet->lines);
+    free(sheet->parameters);
     free(sheet->projected);
     free(sheet->deviations);
     free(sheet->variance);
@@ -48,6 +49,11 @@ void crease_sheet_frame(const crease_sheet *sheet, double rotation[9], double or
 size_t crease_sheet_point_count(const crease_sheet *sheet)
 {
     return sheet->point_count;
+}
+
+const double *crease_sheet_parameters(const crease_sheet *sheet)
+{
+    return sheet->parameters;
 }
 
 const double *crease_sheet_projected(const crease_sheet *sheet)

@@ -15,6 +15,7 @@ struct crease_sheet {
     size_t line_count;
     crease_frame frame;
     size_t point_count;
+    double *parameters; /* point_count x 2, or NULL */
     double *projected;  /* point_count x 3 */
     double *deviations; /* point_count */
     double *variance;   /* point_count or NULL */

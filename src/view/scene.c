@@ -99,10 +99,12 @@ static crease_status add_parameter_lines(crease_context *context, crease_layer *
     return status;
 }
 
-static crease_status add_nets(crease_context *context, crease_scene *scene, const char *name,
+crease_status crease_scene_add_nets(crease_context *context, crease_scene *scene, const char *name,
     const crease_surface *const *surfaces, size_t count)
 {
     char title[160];
+    if (count == 0)
+        return check_count(context, "nets", count);
     snprintf(title, sizeof title, "%s control net", name ? name : "");
     crease_layer *layer = begin_layer(context, scene, CREASE_LAYER_NET, title, count);
     crease_status status = layer ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
@@ -128,7 +130,7 @@ crease_status crease_scene_add_surfaces(crease_context *context, crease_scene *s
     status = finish_layer(scene, status);
     if (status != CREASE_OK || !nets)
         return status;
-    status = add_nets(context, scene, name, surfaces, count);
+    status = crease_scene_add_nets(context, scene, name, surfaces, count);
     return status == CREASE_OK ? status : finish_layer(scene, status);
 }
 

@@ -142,6 +142,30 @@ expect 0 "0 creases" fit sample.ply --most-creases 0 -o smooth.png -o smooth.htm
 expect 0 "no room for a crease" fit sample.ply --net 6x6 -o small.step
 expect 0 "1 creases" fit sample.ply --net 7x4 -o small.step
 
+# --- fit, sheet: it ends where the points do
+awk 'BEGIN { for (i = 0; i <= 40; i++) for (j = 0; j <= 20; j++) { x = i / 20; y = j / 20
+    if ((x - 1.5) ^ 2 + (y - 0.5) ^ 2 > 0.06) print x, y, x < 1 ? x - 1 : 1 - x } }' >holed.xyz
+expect 0 "holes inside faces: 1" fit holed.xyz --method sheet -o t.step -o t.igs -o t.obj -o t.png -o t.html --report t.json
+expect 0 "2 faces, 8 edges, 7 vertices" info t.step
+expect 0 "7 free, 1 sharp" info t.step
+expect 0 ", valid" info t.igs
+check "the report has the sheet and its loops in u and v" python3 -c '
+import json
+r = json.load(open("t.json"))
+assert r["face_count"] == len(r["trim"]["faces"]) == 2 and len(r["trim"]["edges"]) == 8
+used = [abs(e) for f in r["trim"]["faces"] for l in f["loops"] for e in l]
+assert sorted(used) == sorted(list(range(1, 9)) + [e for e in used if used.count(e) == 2][:1]), used
+for face in r["trim"]["faces"]:
+    for loop in face["loops"]:
+        ends = [r["trim"]["edges"][abs(e) - 1]["control_points"][::1 if e > 0 else -1] for e in loop]
+        for i, points in enumerate(ends):
+            assert max(abs(a - b) for a, b in zip(points[-1], ends[(i + 1) % len(ends)][0])) < 1e-9, loop'
+expect 0 "2 faces, 1 creases" fit holed.xyz --method sheet --no-trim -o t.step --report t.json
+expect 0 "2 faces, 7 edges, 6 vertices" info t.step
+check "nothing was cut off" python3 -c '
+import json
+assert "trim" not in json.load(open("t.json"))'
+
 # --- fit, part: what lies over itself is closed to a solid
 expect 0 "a closed, valid solid, volume 1" fit cube.ply -o p.step -o p.igs -o p.brep -o p.obj -o p.stl -o p.ply \
     -o p.glb -o p.png -o p.svg -o p.html --creases p_creases.ply --points p_on.ply --report p.json
@@ -171,7 +195,8 @@ expect 0 "field face: 0 to 5" info p_on.ply
 expect 0 "6 faces" fit cube.ply --faces bspline -o pb.step
 expect 0 "6 B-spline, 0 plane, 0 other" info pb.step
 expect 0 "1 solids" info pb.step
-expect 0 "control points" fit cube.ply --method sheet -o forced.step
+expect 0 "lie one over another, and the sheet passes between them: take --method part" \
+    fit cube.ply --method sheet -o forced.step
 expect 2 "analytic or bspline" fit cube.ply --faces round
 expect 0 "noise 0.003" fit cube.ply --sigma 0.003 -o known.step
 expect 0 "3 parallel, 3 perpendicular, 0 coaxial, 0 equal radii" fit cube.ply -o sn.step --report sn.json

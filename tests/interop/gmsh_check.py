@@ -7,7 +7,8 @@
 
 A cube and a stepped shaft, as clouds, are fitted. gmsh must find in the STEP file what `crease info`
 and the report say: one volume, as many faces, edges and vertices, the same volume; and a surface
-mesh made there must be closed: two triangles at each of its edges.
+mesh made there must be closed: two triangles at each of its edges. A roof with a round hole over its
+ridge, as a trimmed sheet, must be there with its area, and its mesh must end at its border alone.
 """
 import collections
 import json
@@ -25,6 +26,7 @@ except ImportError:
     sys.exit(77)
 
 SPACING = 0.04
+HOLE = 0.25
 
 
 def cells(width, height):
@@ -64,25 +66,35 @@ def shaft():
         yield from part
 
 
+def roof():
+    """A square with its ridge in the middle, and a hole there."""
+    for u, v in cells(1, 1):
+        if math.hypot(u - 0.5, v - 0.5) > HOLE:
+            yield [u, v, -abs(u - 0.5)]
+
+
 def run(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-def fit(program, folder, name, points):
-    """The STEP file, its volume by the report, and how many faces, edges and vertices it has."""
+def counts_in(program, step):
+    """Faces, edges and vertices."""
+    found = re.search(r"(\d+) faces, (\d+) edges, (\d+) vertices", run(program, "info", step))
+    return [int(count) for count in found.groups()]
+
+
+def fit(program, folder, name, points, method):
+    """The STEP file, the report, and how many faces, edges and vertices there are."""
     cloud, step, report = (os.path.join(folder, name + end) for end in (".xyz", ".step", ".json"))
     with open(cloud, "w", encoding="ascii") as file:
         file.writelines("%.9g %.9g %.9g\n" % tuple(point) for point in points)
-    run(program, "fit", cloud, "--method", "part", "-o", step, "--report", report)
+    run(program, "fit", cloud, "--method", method, "-o", step, "--report", report)
     with open(report, encoding="utf-8") as file:
-        part = json.load(file)["part"]
-    assert part["state"] == "solid", part
-    found = re.search(r"(\d+) faces, (\d+) edges, (\d+) vertices", run(program, "info", step))
-    return step, part["volume"], [int(count) for count in found.groups()]
+        return step, json.load(file), counts_in(program, step)
 
 
-def open_edges():
-    """Edges of the triangles of the mesh that do not have exactly two."""
+def triangles_at_edges():
+    """How many triangles each edge of the mesh has."""
     counts = collections.Counter()
     for kind, _, nodes in zip(*gmsh.model.mesh.getElements(2)):
         assert kind == 2, "not a triangle"
@@ -90,20 +102,39 @@ def open_edges():
             for a, b in ((0, 1), (1, 2), (2, 0)):
                 counts[frozenset((int(nodes[i + a]), int(nodes[i + b])))] += 1
     assert counts, "no mesh"
-    return sum(count != 2 for count in counts.values())
+    return counts
 
 
-def check(step, volume, counts):
+def read(step, volumes, counts):
     gmsh.clear()
     gmsh.model.occ.importShapes(step)
     gmsh.model.occ.synchronize()
     there = [len(gmsh.model.getEntities(dimension)) for dimension in (3, 2, 1, 0)]
-    assert there == [1] + counts, (there, counts)
+    assert there == [volumes] + counts, (there, counts)
+
+
+def check(step, volume, counts):
+    read(step, 1, counts)
     found = gmsh.model.occ.getMass(3, gmsh.model.getEntities(3)[0][1])
     assert abs(found / volume - 1) < 1e-6, (found, volume)
     gmsh.option.setNumber("Mesh.MeshSizeMax", 0.2)
     gmsh.model.mesh.generate(2)
-    assert open_edges() == 0, open_edges()
+    assert set(triangles_at_edges().values()) == {2}
+
+
+def check_sheet(step, counts):
+    read(step, 0, counts)
+    area = sum(gmsh.model.occ.getMass(2, face) for _, face in gmsh.model.getEntities(2))
+    expected = math.sqrt(2) * (1 - math.pi * HOLE**2)
+    assert abs(area / expected - 1) < 0.03, (area, expected)
+    gmsh.option.setNumber("Mesh.MeshSizeMax", 0.02)
+    gmsh.model.mesh.generate(2)
+    tags, places, _ = gmsh.model.mesh.getNodes()
+    place = {int(tag): places[3 * i:3 * i + 3] for i, tag in enumerate(tags)}
+    for edge, triangles in triangles_at_edges().items():
+        u, v, _ = (sum(place[node][c] for node in edge) / 2 for c in range(3))
+        border = min(u, 1 - u, v, 1 - v, math.hypot(u - 0.5, v - 0.5) - HOLE)
+        assert triangles == 2 or triangles == 1 and border < SPACING, (u, v, triangles)
 
 
 def main():
@@ -113,11 +144,17 @@ def main():
     gmsh.initialize()
     gmsh.option.setNumber("General.Terminal", 0)
     for name, points, faces in (("cube", cube(), 6), ("shaft", shaft(), 5)):
-        step, volume, counts = fit(program, folder, name, points)
-        assert counts[0] == faces, counts
+        step, report, counts = fit(program, folder, name, points, "part")
+        volume = report["part"]["volume"]
+        assert counts[0] == faces and report["part"]["state"] == "solid", report
         check(step, volume, counts)
         print("%s: %d faces, %d edges, %d vertices, volume %.6g, in gmsh as here; its mesh closes"
               % (name, *counts, volume))
+    step, report, counts = fit(program, folder, "roof", roof(), "sheet")
+    assert counts[0] == 2 and len(report["trim"]["faces"]) == 2, counts
+    check_sheet(step, counts)
+    print("roof: a trimmed sheet of %d faces, %d edges, %d vertices; its mesh ends at its border"
+          % tuple(counts))
     gmsh.finalize()
 
 

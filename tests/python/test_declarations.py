@@ -24,7 +24,7 @@ def header(name):
     return re.sub(r"\s+", " ", re.sub(r"/\*.*?\*/", " ", text, flags=re.S))
 
 
-TEXT = {name: header(name) for name in ("crease.h", "crease_cad.h")}
+TEXT = {name: header(name) for name in ("crease.h", "crease_trim.h", "crease_cad.h")}
 ALL = " ".join(TEXT.values())
 
 
@@ -40,7 +40,7 @@ ENUMERATIONS = {c_name(name): each for name, each in vars(declared).items()
 
 
 def printed_by_c(tmp_path, body):
-    """What a C program prints that knows both headers."""
+    """What a C program prints that knows all headers."""
     source = tmp_path / "declared.c"
     source.write_text('#include "crease/crease_cad.h"\n#include <stdio.h>\nint main(void)\n{\n'
                       + body + "    return 0;\n}\n")
@@ -122,6 +122,7 @@ def matches(c_type, python_type):
 
 
 @pytest.mark.parametrize("file, functions", [("crease.h", declared.FUNCTIONS),
+                                             ("crease_trim.h", declared.TRIM_FUNCTIONS),
                                              ("crease_cad.h", declared.CAD_FUNCTIONS)])
 def test_functions_take_and_return_what_the_header_says(file, functions):
     known = prototypes(TEXT[file])

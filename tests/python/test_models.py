@@ -41,6 +41,32 @@ def test_the_sheet_finds_the_crease_of_the_roof(sheet, points):
     assert np.allclose(sheet.projected, points, atol=1e-9)
 
 
+def area(mesh):
+    a, b, c = (mesh.vertices[mesh.triangles[:, i]] for i in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2
+
+
+def test_a_sheet_ends_where_the_points_do_unless_told_not_to(tmp_path):
+    x, y = (axis.ravel() for axis in np.meshgrid(np.linspace(0, 2, 41), np.linspace(0, 1, 21)))
+    beside = np.hypot(x - 1.5, y - 0.5) > 0.25
+    points = np.column_stack([x, y, -np.abs(x - 1)])[beside]
+    sheet = crease.fit(points, method="sheet")
+    assert sorted(len(loops) for loops in sheet.loops) == [1, 2]
+    middle = [face for face in sheet.loops if len(face) == 2][0][1][0].sample(5)
+    assert np.ptp(middle[:, 0]) > 0.1 and not middle[:, 2].any()
+    whole = crease.fit(points, method="sheet", no_trim=True)
+    assert whole.loops is None
+    assert area(whole.mesh) == pytest.approx(8 ** 0.5, rel=1e-6)
+    assert area(sheet.mesh) == pytest.approx(area(whole.mesh) - 2 ** 0.5 * np.pi / 16, rel=0.02)
+    assert len(sheet.faces) == 2 and np.array_equal(sheet.surface.control_points,
+                                                    whole.surface.control_points)
+    for name in ("sheet.step", "sheet.obj", "sheet.png", "sheet.html"):
+        sheet.write(tmp_path / name)
+        assert (tmp_path / name).stat().st_size > 0
+    with pytest.raises(crease.UsageError, match="no_trim"):
+        crease.fit(points, method="part", no_trim=True)
+
+
 def test_the_sheet_is_local_in_its_frame(sheet):
     assert np.allclose(sheet.rotation @ sheet.rotation.T, np.eye(3))
     assert np.linalg.det(sheet.rotation) == pytest.approx(1)
