@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FEW = 40, MOST = 4096, GRAIN = 512 };
+enum { FEWEST = 14, FEW = 40, MOST = 4096, GRAIN = 512 };
 
 static const double TURN = 6.283185307179586476925;
 static const double LEAST_ARC = 1e-9;      /* radians */
@@ -131,15 +131,20 @@ static size_t free_arcs(uint32_t point, const struct shade *shades, size_t count
 }
 
 /* Most points lie inside: their nearest neighbours alone leave nothing free. */
-static bool is_inside(const struct search *s, uint32_t point, struct scratch *scratch)
+static bool is_among(const struct search *s, uint32_t point, int most, struct scratch *scratch)
 {
-    const int few = s->tree->count < FEW ? (int)s->tree->count : FEW;
+    const int few = s->tree->count < (size_t)most ? (int)s->tree->count : most;
     crease_tree_nearest_place(s->tree, s->points + 3 * (size_t)point, CREASE_NO_POSITION, few,
         scratch->found, scratch->squared);
     for (int i = 0; i < few; i++)
         scratch->found[i] = s->tree->index[scratch->found[i]];
     const size_t shades = make_shades(s, point, scratch->found, (size_t)few, scratch->shades);
     return shades > 0 && free_arcs(point, scratch->shades, shades, NULL) == 0;
+}
+
+static bool is_inside(const struct search *s, uint32_t point, struct scratch *scratch)
+{
+    return is_among(s, point, FEWEST, scratch) || is_among(s, point, FEW, scratch);
 }
 
 static void search_points(void *user, size_t begin, size_t end, int worker)
