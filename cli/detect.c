@@ -7,8 +7,11 @@
 #include "engine.h"
 #include "facts.h"
 #include "input.h"
+#include "limit.h"
 #include "outputs.h"
 #include "region.h"
+
+#include "crease/crease_stream.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -24,6 +27,7 @@ typedef struct result {
     crease_regions *regions;
     crease_network *network;
     crease_cloud *cloud;                  /* with the fields */
+    size_t points, features, outliers;    /* how many */
     const cJSON *of_regions, *of_creases; /* what the report says of each */
 } result;
 
@@ -64,6 +68,17 @@ static crease_status label(
     return status;
 }
 
+static void count(const settings *s, result *all)
+{
+    const uint8_t *const features = features_of(s, all);
+    const int32_t *const labels = crease_regions_labels(all->regions);
+    all->points = crease_network_point_count(all->network);
+    for (size_t i = 0; i < all->points; i++) {
+        all->features += features[i];
+        all->outliers += labels[i] < 0;
+    }
+}
+
 static crease_status find(
     crease_context *context, const settings *s, report *r, const crease_cloud *cloud, result *all)
 {
@@ -79,20 +94,94 @@ static crease_status find(
     if (status != CREASE_OK)
         return status;
     report_stage(r, "creases");
+    count(s, all);
     return label(context, s, cloud, all);
+}
+
+/* -------------------------------------------------------------------------- larger than memory --
+ */
+
+/* The one cloud that is written; other outputs would show it whole. */
+static crease_status choose_output(
+    crease_context *context, const settings *s, settings *others, const char **cloud)
+{
+    *others = *s;
+    others->output_count = 0;
+    *cloud = NULL;
+    for (size_t i = 0; i < s->output_count; i++) {
+        const target_kind kind = target_of(s->outputs[i], ALLOWED);
+        if (kind == TARGET_REPORT)
+            others->outputs[others->output_count++] = s->outputs[i];
+        else if (kind == TARGET_CLOUD && !*cloud)
+            *cloud = s->outputs[i];
+        else
+            return crease_context_fail(context, CREASE_ERROR_ARGUMENT,
+                "%s: the cloud is larger than --memory; it is written to one PLY file alone, leave "
+                "other outputs out or raise the limit",
+                s->outputs[i]);
+    }
+    return *cloud ? CREASE_OK
+                  : crease_context_fail(context, CREASE_ERROR_ARGUMENT,
+                        "the cloud is larger than --memory: name the PLY file to write it to, -o "
+                        "FILE.ply, or raise the limit");
+}
+
+static void describe_stream(
+    report *r, const settings *s, const char *path, const crease_stream_summary *summary)
+{
+    cJSON *object = cJSON_AddObjectToObject(r->root, "cloud");
+    cJSON_AddNumberToObject(object, "points", (double)summary->count);
+    report_vector(object, "lowest", summary->lowest);
+    report_vector(object, "highest", summary->highest);
+    cJSON_AddNumberToObject(r->root, "parts", (double)summary->parts);
+    cJSON_AddNumberToObject(r->root, "sampled", (double)summary->sampled);
+    report_line(r, "%s: %zu points, larger than --memory: worked on in %zu parts", path,
+        summary->count, summary->parts);
+    report_line(r,
+        "regions and creases are those of a sample of %zu points; every point was then labelled by "
+        "them%s",
+        summary->sampled,
+        s->features == FEATURES_SCORE ? ", its score and feature are its own" : "");
+}
+
+/* Leaves in `others` what is still to be written. */
+static crease_status find_in_parts(
+    crease_context *context, const settings *s, report *r, result *all, settings *others)
+{
+    const char *path = NULL, *cloud = NULL;
+    crease_stream_summary summary;
+    crease_stream_options options = crease_stream_options_default();
+    options.detect = s->detect;
+    options.regions = s->regions;
+    options.read = s->read;
+    options.by_score = s->features == FEATURES_SCORE;
+    options.memory = limit_left(s);
+    options.scratch = s->scratch;
+    crease_status status = choose_output(context, s, others, &cloud);
+    if (status == CREASE_OK)
+        status = input_path(context, s, "the file to read", &path);
+    if (status == CREASE_OK)
+        status = crease_detect_stream(
+            context, path, &options, cloud, &summary, &all->regions, &all->network);
+    if (status != CREASE_OK)
+        return status;
+    report_stage(r, "parts");
+    all->points = summary.count;
+    all->features = summary.features;
+    all->outliers = summary.outliers;
+    describe_stream(r, s, path, &summary);
+    report_line(r, "wrote %s", cloud);
+    return CREASE_OK;
 }
 
 /* --------------------------------------------------------------------------------- telling -- */
 
-static void describe_regions(report *r, const crease_regions *regions)
+static void describe_regions(report *r, const crease_regions *regions, size_t outliers)
 {
     region_counts counts = {0};
-    size_t outliers = 0;
     char text[160];
     for (size_t i = 0; i < crease_regions_count(regions); i++)
         counts.of[crease_regions_at(regions, i).type]++;
-    for (size_t i = 0; i < crease_regions_point_count(regions); i++)
-        outliers += crease_regions_labels(regions)[i] < 0;
     cJSON *object = cJSON_AddObjectToObject(r->root, "regions");
     cJSON_AddNumberToObject(object, "count", (double)crease_regions_count(regions));
     region_counts_describe(object, &counts);
@@ -194,12 +283,8 @@ static const cJSON *describe_network(report *r, const crease_network *network)
 
 static void describe_features(report *r, const settings *s, const result *all)
 {
-    const size_t count = crease_network_point_count(all->network);
-    const uint8_t *features = features_of(s, all);
+    const size_t count = all->points, found = all->features;
     const double spacing = crease_network_spacing(all->network);
-    size_t found = 0;
-    for (size_t i = 0; i < count; i++)
-        found += features[i];
     const double percent = count ? 100.0 * (double)found / (double)count : 0.0;
     cJSON_AddNumberToObject(r->root, "features", (double)found);
     cJSON_AddNumberToObject(r->root, "spacing", spacing);
@@ -250,28 +335,46 @@ static crease_status write_outputs(
     return outputs_write(context, s, r, &made);
 }
 
-crease_status detect_run(crease_context *context, const settings *s, report *r)
+static crease_status check(crease_context *context, const settings *s)
 {
-    crease_cloud *cloud = NULL;
-    result all = {0};
     crease_status status = targets_check(context, s, ALLOWED);
     if (status == CREASE_OK)
         status = target_check(context, s->creases, CREASES);
+    return status == CREASE_OK ? target_check(context, s->report, TARGET_REPORT) : status;
+}
+
+static crease_status find_in_memory(
+    crease_context *context, const settings *s, report *r, result *all)
+{
+    crease_cloud *cloud = NULL;
+    crease_status status = input_read(context, s, r, &cloud);
     if (status == CREASE_OK)
-        status = target_check(context, s->report, TARGET_REPORT);
+        status = limit_check(context, s, crease_cloud_count(cloud), LIMIT_DETECT);
     if (status == CREASE_OK)
-        status = input_read(context, s, r, &cloud);
+        status = find(context, s, r, cloud, all);
+    crease_cloud_free(cloud);
+    return status;
+}
+
+crease_status detect_run(crease_context *context, const settings *s, report *r)
+{
+    settings left = *s; /* to write */
+    result all = {0};
+    bool larger = false;
+    crease_status status = check(context, s);
     if (status == CREASE_OK)
-        status = find(context, s, r, cloud, &all);
+        status = limit_exceeded(context, s, LIMIT_DETECT, &larger);
+    if (status == CREASE_OK)
+        status = larger ? find_in_parts(context, s, r, &all, &left)
+                        : find_in_memory(context, s, r, &all);
     if (status == CREASE_OK) {
-        describe_regions(r, all.regions);
+        describe_regions(r, all.regions, all.outliers);
         all.of_regions = describe_each_region(r, all.regions);
         describe_fillets(r, all.regions);
         all.of_creases = describe_network(r, all.network);
         describe_features(r, s, &all);
-        status = write_outputs(context, s, r, &all);
+        status = write_outputs(context, &left, r, &all);
     }
     result_free(&all);
-    crease_cloud_free(cloud);
     return status;
 }

@@ -6,6 +6,9 @@
 
 #include "command.h"
 #include "input.h"
+#include "limit.h"
+
+#include "crease/crease_stream.h"
 
 /* With fewer points there are no regions to speak of. */
 enum { LEAST_FOR_SHELL = 500 };
@@ -90,13 +93,43 @@ static crease_status fit(crease_context *context, const settings *s, report *r,
     return status;
 }
 
+/* A sample of the points when all of them are more than --memory allows. */
+static crease_status read_sample(
+    crease_context *context, const settings *s, report *r, crease_cloud **out)
+{
+    const char *const path = s->inputs[s->input_count - 1];
+    size_t total = 0;
+    const crease_status status =
+        crease_cloud_read_sample(context, path, &s->read, limit_left(s) / LIMIT_FIT, out, &total);
+    if (status != CREASE_OK)
+        return status;
+    input_describe(r, *out);
+    cJSON_AddNumberToObject(r->root, "sampled_from", (double)total);
+    report_stage(r, "read");
+    report_line(r, "%s: %zu points are larger than --memory: fitted to a sample of %zu of them",
+        path, total, crease_cloud_count(*out));
+    return CREASE_OK;
+}
+
+static crease_status read_points(
+    crease_context *context, const settings *s, report *r, crease_cloud **out)
+{
+    bool larger = false;
+    crease_status status = limit_exceeded(context, s, LIMIT_FIT, &larger);
+    if (status != CREASE_OK || larger)
+        return status == CREASE_OK ? read_sample(context, s, r, out) : status;
+    status = input_read(context, s, r, out);
+    return status == CREASE_OK ? limit_check(context, s, crease_cloud_count(*out), LIMIT_FIT)
+                               : status;
+}
+
 crease_status fit_run(crease_context *context, const settings *s, report *r)
 {
     crease_cloud *cloud = NULL;
     choice chosen = {.method = METHOD_AUTOMATIC};
     crease_status status = check(context, s);
     if (status == CREASE_OK)
-        status = input_read(context, s, r, &cloud);
+        status = read_points(context, s, r, &cloud);
     if (status == CREASE_OK)
         status = choose(context, s, cloud, &chosen);
     if (status == CREASE_OK)

@@ -5,6 +5,7 @@
 #include "command.h"
 #include "engine.h"
 #include "help.h"
+#include "limit.h"
 #include "terminal.h"
 
 #include <stdlib.h>
@@ -151,10 +152,12 @@ static int run_command(const command *c, int count, char **arguments)
         help_command(stdout, c);
         return 0;
     }
+    limit_prepare(&s);
     terminal_catch_signals();
     crease_context_options o = crease_context_options_default();
     o.threads = s.threads;
     o.seed = s.seed;
+    o.memory = s.memory;
     o.cancelled = terminal_cancelled;
     if (!s.quiet) {
         o.progress = terminal_progress;

@@ -131,6 +131,15 @@ const option option_table[] = {
         "was "
         "broken off goes on after its last finished stage, with the same result",
         "nothing is kept"},
+    {"memory", 0, OPTION_SIZE, "SIZE", FOR_DETECT | FOR_FIT, AT(memory), 50e6, 1e18, NULL,
+        "take no more memory than this: bytes, such as 500M or 2G. A binary PLY or LAS file whose "
+        "points do not fit: `detect` goes from file to file, part by part, with regions and "
+        "creases "
+        "from a sample; `fit` takes a sample",
+        "no limit"},
+    {"scratch", 0, OPTION_PATH, "FOLDER", FOR_DETECT, AT(scratch), 0, 0, NULL,
+        "with --memory: where files of 56 bytes for each point are kept meanwhile",
+        "the folder of the output"},
     {"seed", 's', OPTION_SEED, "N", FOR_DETECT | FOR_FIT | FOR_EXAMPLE | FOR_REPRODUCE, AT(seed), 0,
         0, NULL, "seed of every random draw", NULL},
     {"threads", 't', OPTION_INTEGER, "N", FOR_ALL, AT(threads), 0, 1024, NULL,
@@ -182,6 +191,26 @@ static bool set_real(const option *o, const char *text, settings *s)
     if (!read_number(text, &number) || number < o->least || number > o->most)
         return false;
     *(double *)member(s, o) = number;
+    return true;
+}
+
+/* 1500000, 500M, 2G: powers of 1000, as disks and most programs have them. */
+static bool set_size(const option *o, const char *text, settings *s)
+{
+    static const char units[] = "kMGT";
+    char *end = NULL;
+    errno = 0;
+    double number = strtod(text, &end);
+    if (end == text || errno == ERANGE || !isfinite(number))
+        return false;
+    const char *const unit = *end ? strchr(units, *end) : NULL;
+    if (unit)
+        end++;
+    for (const char *u = units; unit && u <= unit; u++)
+        number *= 1000;
+    if (*end || number < o->least || number > o->most)
+        return false;
+    *(size_t *)member(s, o) = (size_t)number;
     return true;
 }
 
@@ -266,6 +295,8 @@ static bool set_value(const option *o, const char *text, settings *s)
         return set_integer(o, text, s);
     case OPTION_SEED:
         return set_seed(o, text, s);
+    case OPTION_SIZE:
+        return set_size(o, text, s);
     case OPTION_REAL:
         return set_real(o, text, s);
     case OPTION_PATH:
@@ -294,6 +325,9 @@ static void expected(const option *o, char *text, size_t size)
         return;
     case OPTION_SEED:
         snprintf(text, size, "a whole number from 0 to 18446744073709551615");
+        return;
+    case OPTION_SIZE:
+        snprintf(text, size, "bytes, such as 500M or 2G, at least %gM", o->least / 1e6);
         return;
     case OPTION_NET:
         snprintf(text, size, "two whole numbers from %g to %g such as 6x6", o->least, o->most);
@@ -392,6 +426,9 @@ void option_value_text(const option *o, const settings *s, char *text, size_t si
         return;
     case OPTION_SEED:
         snprintf(text, size, "%llu", (unsigned long long)*(const uint64_t *)at);
+        return;
+    case OPTION_SIZE:
+        snprintf(text, size, "%zu", *(const size_t *)at);
         return;
     case OPTION_REAL:
         snprintf(text, size, "%g", *(const double *)at);

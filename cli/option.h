@@ -24,6 +24,7 @@ enum {
 
 typedef enum option_kind {
     OPTION_FLAG,    /* bool */
+    OPTION_SIZE,    /* size_t: bytes */
     OPTION_INTEGER, /* int */
     OPTION_SEED,    /* uint64_t */
     OPTION_REAL,    /* double */

@@ -24,6 +24,7 @@ static void add_option(cJSON *list, const option *o, const settings *s)
     option_value_text(o, s, text, sizeof text);
     switch (o->kind) {
     case OPTION_INTEGER:
+    case OPTION_SIZE:
     case OPTION_REAL:
         cJSON_AddNumberToObject(list, o->name, strtod(text, NULL));
         break;

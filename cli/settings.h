@@ -36,8 +36,10 @@ typedef struct settings {
     const char *points;
     const char *report;
     const char *resume;
+    const char *scratch;
     /* how it runs */
     int threads;
+    size_t memory; /* bytes; 0: no limit */
     uint64_t seed;
     bool quiet;
     bool json;

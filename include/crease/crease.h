@@ -89,6 +89,10 @@ typedef struct crease_context crease_context;
 typedef struct crease_context_options {
     int threads;   /**< number of threads, 1..1024; 0 = one for each processor */
     uint64_t seed; /**< seed of every random draw */
+    size_t memory; /**< bytes that the whole process may have in memory: what would take more fails
+                        with CREASE_ERROR_NO_MEMORY instead. Of Linux; elsewhere nothing fails.
+                        Small blocks, and those of other libraries, are not refused but counted.
+                        0: no limit */
     /** Called now and then during long work, always from the calling thread; fraction is 0..1. */
     void (*progress)(void *user, const char *stage, double fraction);
     /** Asked now and then; non-zero ends the work with CREASE_ERROR_CANCELLED. */

@@ -106,8 +106,9 @@ Warn = CFUNCTYPE(None, c_void_p, c_char_p)
 
 
 class ContextOptions(Structure):
-    _fields_ = [("threads", c_int), ("seed", c_uint64), ("progress", Progress),
-                ("cancelled", Cancelled), ("warn", Warn), ("user", c_void_p)]
+    _fields_ = [("threads", c_int), ("seed", c_uint64), ("memory", c_size_t),
+                ("progress", Progress), ("cancelled", Cancelled), ("warn", Warn),
+                ("user", c_void_p)]
 
 
 class Field(Structure):

@@ -218,7 +218,7 @@ def detect(points: Points, *, detector: Literal["bootstrap", "jackknife", "varia
            features: Literal["creases", "score"] = "creases", neighbours: int | None = None,
            resamples: int | None = None, false_discovery_rate: float | None = None,
            sigma: float | None = None, seed: int = 1, threads: int = 0,
-           progress: ProgressCallback | None = None) -> Detection:
+           memory: int | str | None = None, progress: ProgressCallback | None = None) -> Detection:
     """Finds the smooth regions of a cloud, the creases in which they meet at an angle, and the
     points on them. Nothing needs to be set; the options are those of `crease detect`.
 
@@ -227,6 +227,8 @@ def detect(points: Points, *, detector: Literal["bootstrap", "jackknife", "varia
     neighbours, resamples, false_discovery_rate: of the score.
     sigma: noise of the points along the normal, when it is known.
     threads: 0 is one for each processor; the result does not depend on it.
+    memory: bytes that the process may have, as a number or as "500M" or "2G"; MemoryError is raised
+    where it would take more. Clouds larger than that go from file to file by the program.
     progress: is called with the stage and how much of it is done, 0 to 1; an exception ends the
     work.
     """
@@ -236,7 +238,7 @@ def detect(points: Points, *, detector: Literal["bootstrap", "jackknife", "varia
                    detector=choose("detector", detector, _DETECTORS))
     splitting = fill(LIBRARY.crease_regions_options_default(), sigma=sigma)
     cloud = as_cloud(points)
-    with Work(threads=threads, seed=seed, progress=progress) as work:
+    with Work(threads=threads, seed=seed, memory=memory, progress=progress) as work:
         scores = work.make("scores", "crease_scores_compute", cloud._handle, byref(scoring))
         regions = work.make("regions", "crease_regions_find", cloud._handle, byref(splitting))
         network = work.make("network", "crease_network_find", regions, None)

@@ -98,7 +98,8 @@ def _wants_shell(work: Work, cloud: Cloud, sheet: Handle, given: dict[str, Any])
 
 
 @overload
-def fit(points: Points, *, method: Literal["sheet"], net: ArrayLike | None = ...,
+def fit(points: Points, *, method: Literal["sheet"],
+        memory: int | str | None = ..., net: ArrayLike | None = ...,
         orientation: Literal["automatic", "none"] | None = ..., rotation: ArrayLike | None = ...,
         order: int | None = ..., most_creases: int | None = ..., smoothing: float | None = ...,
         tolerance: float | None = ..., no_trim: bool = ..., seed: int = ..., threads: int = ...,
@@ -106,7 +107,8 @@ def fit(points: Points, *, method: Literal["sheet"], net: ArrayLike | None = ...
 
 
 @overload
-def fit(points: Points, *, method: Literal["averaging"], net: ArrayLike | None = ...,
+def fit(points: Points, *, method: Literal["averaging"],
+        memory: int | str | None = ..., net: ArrayLike | None = ...,
         orientation: Literal["automatic", "none"] | None = ..., rotation: ArrayLike | None = ...,
         neighbours: int | None = ..., resamples: int | None = ...,
         averaging_neighbours: int | None = ..., passes: int | None = ...,
@@ -116,19 +118,22 @@ def fit(points: Points, *, method: Literal["averaging"], net: ArrayLike | None =
 
 
 @overload
-def fit(points: Points, *, method: Literal["part"], sigma: float | None = ...,
+def fit(points: Points, *, method: Literal["part"],
+        memory: int | str | None = ..., sigma: float | None = ...,
         faces: Literal["analytic", "bspline"] | None = ..., no_snap: bool = ..., seed: int = ...,
         threads: int = ..., progress: ProgressCallback | None = ...) -> Part: ...
 
 
 @overload
-def fit(points: Points, *, method: Literal["shell"], sigma: float | None = ...,
+def fit(points: Points, *, method: Literal["shell"],
+        memory: int | str | None = ..., sigma: float | None = ...,
         faces: Literal["analytic", "bspline"] | None = ..., no_snap: bool = ..., seed: int = ...,
         threads: int = ..., progress: ProgressCallback | None = ...) -> Part: ...
 
 
 @overload
-def fit(points: Points, *, method: Literal["automatic"] = ..., sigma: float | None = ...,
+def fit(points: Points, *, method: Literal["automatic"] = ...,
+        memory: int | str | None = ..., sigma: float | None = ...,
         faces: Literal["analytic", "bspline"] | None = ..., no_snap: bool = ...,
         net: ArrayLike | None = ...,
         orientation: Literal["automatic", "none"] | None = ..., rotation: ArrayLike | None = ...,
@@ -138,7 +143,8 @@ def fit(points: Points, *, method: Literal["automatic"] = ..., sigma: float | No
 
 
 def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: int = 0,
-        progress: ProgressCallback | None = None, **options: Any) -> Sheet | Part:
+        memory: int | str | None = None, progress: ProgressCallback | None = None,
+        **options: Any) -> Sheet | Part:
     """Fits a model that is sharp along the edges that the data show. Nothing needs to be set; the
     options are those of `crease fit`.
 
@@ -158,7 +164,7 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
     as the points go.
     Of averaging: neighbours, resamples, averaging_neighbours, passes, marking_neighbours,
     mark_threshold, row_threshold, multiplicity.
-    threads, progress: as in crease.detect().
+    threads, memory, progress: as in crease.detect().
     """
     given = {name: value for name, value in options.items() if value is not None}
     unknown = given.keys() - set().union(*_TAKES.values())
@@ -166,7 +172,7 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
         raise TypeError(f"fit() got an unexpected keyword argument {min(unknown)!r}")
     _check(method, given)
     cloud = as_cloud(points)
-    with Work(threads=threads, seed=seed, progress=progress) as work:
+    with Work(threads=threads, seed=seed, memory=memory, progress=progress) as work:
         automatic = method == "automatic"
         if automatic:
             method = _chosen(work, cloud, given)

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import operator
-from ctypes import Array, Structure, c_bool, c_double, sizeof
+from ctypes import Array, Structure, c_bool, c_double, c_size_t, sizeof
 from typing import Any, Mapping, Sequence, TypeVar
 
 import numpy as np
@@ -23,6 +23,23 @@ def choose(name: str, word: str, choices: Mapping[str, _Choice]) -> _Choice:
     if word not in choices:
         raise UsageError(f"{name}: one of {', '.join(choices)}, not {word!r}")
     return choices[word]
+
+
+def size_of(name: str, value: int | str | None) -> int:
+    """Bytes: a number, or text such as 500M or 2G, in powers of 1000; None is 0."""
+    units = {"": 1, "k": 10**3, "M": 10**6, "G": 10**9, "T": 10**12}
+    if value is None:
+        return 0
+    if not isinstance(value, str):
+        return _whole(name, value, c_size_t)
+    digits = value.rstrip("kMGT")
+    try:
+        size = float(digits) * units[value[len(digits):]]
+    except (KeyError, ValueError):
+        size = math.nan
+    if not 0 < size < 2**63:
+        raise UsageError(f"{name}: bytes, such as 500M or 2G, not {value!r}")
+    return int(size)
 
 
 def _whole(name: str, value: Any, number_type: Any) -> int:

@@ -17,7 +17,7 @@ from ._declarations import Cancelled, ContextOptions, Kind, Progress, Status, Wa
 from ._errors import Error, Failure, InputError, InputWarning, UsageError
 from ._library import LIBRARY
 from ._memory import Handle
-from ._options import fill
+from ._options import fill, size_of
 
 #: Told the stage of the work and how much of it is done, 0 to 1.
 ProgressCallback = Callable[[str, float], Any]
@@ -62,12 +62,13 @@ class Work:
     kept, the library is told to stop, and the exception is raised when it has.
     """
 
-    def __init__(self, *, threads: int = 0, seed: int = 1,
+    def __init__(self, *, threads: int = 0, seed: int = 1, memory: int | str | None = None,
                  progress: ProgressCallback | None = None) -> None:
         self._progress = progress
         self._exception: BaseException | None = None
         self._odd: list[str] = []
-        self._options = fill(LIBRARY.crease_context_options_default(), threads=threads, seed=seed)
+        self._options = fill(LIBRARY.crease_context_options_default(), threads=threads, seed=seed,
+                             memory=size_of("memory", memory))
         self._options.threads = _Threads.allowed(self._options.threads)
         self._options.cancelled = Cancelled(self._is_cancelled)
         self._options.warn = Warn(self._note_warning)

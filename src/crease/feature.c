@@ -36,42 +36,42 @@ static double distance_to_chord(const double p[3], const double a[3], const doub
     return crease_vector_length(from);
 }
 
-static void mark_chord(const crease_survey *survey, const double a[3], const double b[3],
+static void mark_chord(const crease_bystanders *by, const double a[3], const double b[3],
     double distance, uint32_t *found, uint8_t *near)
 {
     const double middle[3] = {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
     const double radius = distance + crease_vector_distance(a, middle);
     size_t count = 0;
-    crease_tree_within(survey->tree, middle, radius, survey->regions->count, found, &count);
+    crease_tree_within(by->tree, middle, radius, by->tree->count, found, &count);
     for (size_t i = 0; i < count; i++)
-        if (distance_to_chord(survey->regions->points + 3 * (size_t)found[i], a, b) <= distance)
+        if (distance_to_chord(by->points + 3 * (size_t)found[i], a, b) <= distance)
             near[found[i]] = 1;
 }
 
-static void mark_curve(const crease_survey *survey, const crease_curve *curve, double distance,
+static void mark_curve(const crease_bystanders *by, const crease_curve *curve, double distance,
     uint32_t *found, uint8_t *near)
 {
     double domain[2], before[3], place[3];
     crease_curve_domain(curve, domain);
     const double length = domain[1] - domain[0];
-    const double chords = fmax(1.0, ceil(length / (CHORD * survey->spacing)));
+    const double chords = fmax(1.0, ceil(length / (CHORD * by->spacing)));
     crease_curve_evaluate(curve, domain[0], CREASE_SIDE_RIGHT, 0, before);
     for (double i = 1.0; i <= chords; i += 1.0) {
         const double t = domain[0] + length * (i / chords);
         crease_curve_evaluate(curve, t, CREASE_SIDE_LEFT, 0, place);
-        mark_chord(survey, before, place, distance, found, near);
+        mark_chord(by, before, place, distance, found, near);
         memcpy(before, place, sizeof before);
     }
 }
 
-crease_status crease_features_mark(crease_context *context, const crease_survey *survey,
+crease_status crease_features_mark(crease_context *context, const crease_bystanders *bystanders,
     const crease_curve *const *curves, size_t count, double distance, uint8_t *near)
 {
-    uint32_t *const found = crease_allocate(context, survey->regions->count, sizeof *found);
+    uint32_t *const found = crease_allocate(context, bystanders->tree->count, sizeof *found);
     if (!found)
         return CREASE_ERROR_NO_MEMORY;
     for (size_t i = 0; i < count; i++)
-        mark_curve(survey, curves[i], distance, found, near);
+        mark_curve(bystanders, curves[i], distance, found, near);
     free(found);
     return CREASE_OK;
 }

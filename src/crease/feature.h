@@ -7,8 +7,15 @@
 
 #include "crease/survey.h"
 
-/* Marks (sets to 1) the points within a distance of any of the curves. near: by position. */
-crease_status crease_features_mark(crease_context *context, const crease_survey *survey,
+/* Points that may lie beside creases. */
+typedef struct crease_bystanders {
+    const double *points;    /* count x 3 */
+    const crease_tree *tree; /* of them */
+    double spacing;
+} crease_bystanders;
+
+/* Marks (sets to 1) the points within a distance of any of the curves. near: for each point. */
+crease_status crease_features_mark(crease_context *context, const crease_bystanders *bystanders,
     const crease_curve *const *curves, size_t count, double distance, uint8_t *near);
 
 /* The mean spacing of the points, from those that are neither near an edge nor near a border, each

@@ -150,16 +150,17 @@ static crease_status label_points(
     uint8_t *const near = crease_allocate(context, count, sizeof *near);
     network->features = crease_allocate(context, count, sizeof *network->features);
     network->point_count = count;
+    const crease_bystanders all = {survey->regions->points, survey->tree, survey->spacing};
     crease_status status = CREASE_ERROR_NO_MEMORY;
     if (near && network->features)
         status = crease_features_mark(
-            context, survey, curves, network->count, EDGE_WIDTH * survey->spacing, near);
+            context, &all, curves, network->count, EDGE_WIDTH * survey->spacing, near);
     if (status == CREASE_OK)
         status = crease_features_spacing(context, survey, near, &network->spacing);
     if (status == CREASE_OK) {
         memset(near, 0, count);
         status = crease_features_mark(
-            context, survey, curves, network->count, reach * network->spacing, near);
+            context, &all, curves, network->count, reach * network->spacing, near);
     }
     for (size_t i = 0; i < count && status == CREASE_OK; i++)
         network->features[survey->regions->order[i]] = near[i];

@@ -84,7 +84,7 @@ static crease_status make_tree(
 typedef struct asking {
     const crease_mpi *mpi;
     const crease_tree *tree; /* of own points */
-    crease_reach *reaches;   /* one for each of its leaves */
+    crease_reaches reaches;  /* of its points */
     double *boxes;           /* BOXES x 6 for each rank */
     uint64_t *box_counts;    /* by rank */
     crease_mpi_counts asked; /* reaches sent and received */
@@ -106,11 +106,11 @@ static void choose_questions(asking *ask)
     size_t written = 0;
     for (int r = 0; r < ask->mpi->size; r++) {
         int count = 0;
-        for (size_t leaf = 0; leaf < ask->tree->leaf_count && r != ask->mpi->rank; leaf++) {
-            if (!concerns(ask, &ask->reaches[leaf], r))
+        for (size_t i = 0; i < ask->reaches.count && r != ask->mpi->rank; i++) {
+            if (!concerns(ask, &ask->reaches.items[i], r))
                 continue;
             if (ask->questions)
-                ask->questions[written++] = ask->reaches[leaf];
+                ask->questions[written++] = ask->reaches.items[i];
             count++;
         }
         ask->asked.give[r] = count;
@@ -195,17 +195,15 @@ static crease_status ask_all(asking *ask, int k, crease_mpi_share *share)
 {
     const crease_mpi *const mpi = ask->mpi;
     const size_t ranks = (size_t)mpi->size;
-    ask->reaches = crease_allocate(mpi->context, ask->tree->leaf_count, sizeof *ask->reaches);
     ask->boxes = crease_allocate(mpi->context, ranks, BOXES * 6 * sizeof *ask->boxes);
     ask->box_counts = crease_allocate(mpi->context, ranks, sizeof *ask->box_counts);
-    crease_status status =
-        ask->reaches && ask->boxes && ask->box_counts ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+    crease_status status = ask->boxes && ask->box_counts ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
     if (status == CREASE_OK)
         status = crease_mpi_counts_create(mpi, &ask->asked);
     if (status == CREASE_OK)
         status = crease_mpi_counts_create(mpi, &share->counts);
     if (status == CREASE_OK)
-        status = crease_reach_find(mpi->context, ask->tree, k, ask->reaches);
+        status = crease_reaches_find(mpi->context, ask->tree, k, &ask->reaches);
     status = crease_mpi_agree(mpi, status);
     if (status == CREASE_OK)
         status = tell_boxes(ask);
@@ -223,7 +221,7 @@ static crease_status choose_all(
     asking ask = {.mpi = mpi, .tree = tree};
     if (status == CREASE_OK)
         status = ask_all(&ask, k, share);
-    free(ask.reaches);
+    crease_reaches_free(&ask.reaches);
     free(ask.boxes);
     free(ask.box_counts);
     free(ask.questions);

@@ -238,10 +238,10 @@ static crease_status fail_invalid(crease_context *context, const crease_source *
         return crease_fail(context, CREASE_ERROR_VALUE,
             "%s: %s %zu: %c of point %zu is beyond 1e150; use another unit, or leave such points "
             "out with --skip-invalid",
-            source->name, place.unit, where, "xyz"[axis], row + 1);
+            source->name, place.unit, where, "xyz"[axis], source -> rows_before + row + 1);
     return crease_fail(context, CREASE_ERROR_VALUE,
         "%s: %s %zu: %c of point %zu is %s; mend it, or leave such points out with --skip-invalid",
-        source->name, place.unit, where, "xyz"[axis], row + 1,
+        source->name, place.unit, where, "xyz"[axis], source -> rows_before + row + 1,
         isnan(value) ? "not a number" : "infinite");
 }
 

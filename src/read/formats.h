@@ -19,6 +19,23 @@ crease_reader crease_stl_read;
 crease_reader crease_off_read;
 crease_reader crease_las_read;
 
+/* Where the points of a file are, when they are rows of equal size behind a header. */
+typedef struct crease_layout {
+    uint64_t count;    /* of the points */
+    size_t size;       /* bytes of each */
+    size_t first;      /* byte of the first one: the header is before */
+    size_t numeral[2]; /* PLY: bytes of the header where the count begins and ends */
+    bool alone;        /* nothing follows the points */
+} crease_layout;
+
+/* From a source that holds the header at least. Errors: FORMAT, TRUNCATED, UNSUPPORTED. */
+crease_status crease_ply_layout(
+    crease_context *context, const crease_source *head, crease_layout *out);
+crease_status crease_las_layout(
+    crease_context *context, const crease_source *head, crease_layout *out);
+/* Makes the header of a LAS file one of so many points. */
+void crease_las_set_count(char *header, const crease_layout *layout, uint32_t count);
+
 /* A binary STL has no signature, but its size follows from its count of triangles. */
 bool crease_stl_is_binary(const char *head, size_t head_size, size_t file_size);
 

@@ -76,6 +76,11 @@ static crease_status check(const las *file)
         return fail_damaged(file, "its point format is none of LAS 1.0 to 1.4");
     if (file->begin < LEGACY_HEADER)
         return fail_damaged(file, "its points begin inside its header");
+    return CREASE_OK;
+}
+
+static crease_status check_size(const las *file)
+{
     if (file->begin > file->source->size ||
         file->count > (file->source->size - file->begin) / file->record)
         return fail_truncated(file);
@@ -157,7 +162,7 @@ static void mask_classes(las *file)
 static size_t byte_of(const void *user, size_t row)
 {
     const las *const file = user;
-    return file->begin + row * file->record;
+    return file->source->bytes_before + file->begin + row * file->record;
 }
 
 static crease_status read_points(las *file, const crease_read_options *options, crease_cloud **out)
@@ -184,7 +189,34 @@ crease_status crease_las_read(crease_context *context, const crease_source *sour
     las file = {.context = context, .source = source};
     crease_status status = read_header(&file);
     if (status == CREASE_OK)
+        status = check_size(&file);
+    if (status == CREASE_OK)
         status = read_points(&file, options, out);
     crease_columns_free(&file.columns);
     return status;
+}
+
+/* ------------------------------------------------------------------------------------ layout -- */
+
+crease_status crease_las_layout(
+    crease_context *context, const crease_source *head, crease_layout *out)
+{
+    las file = {.context = context, .source = head};
+    const crease_status status = read_header(&file);
+    if (status == CREASE_OK)
+        *out = (crease_layout){.count = file.count, .size = file.record, .first = file.begin};
+    return status;
+}
+
+static void set_number(char *to, uint64_t number, int bytes)
+{
+    for (int i = 0; i < bytes; i++)
+        to[i] = (char)(number >> 8 * i & 0xff);
+}
+
+void crease_las_set_count(char *header, const crease_layout *layout, uint32_t count)
+{
+    set_number(header + LEGACY_COUNT, count, 4);
+    if (header[MINOR_VERSION] >= 4 && layout->first >= HEADER)
+        set_number(header + COUNT, count, 8);
 }

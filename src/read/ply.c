@@ -19,6 +19,7 @@ typedef enum coding { CODING_NONE, CODING_ASCII, CODING_LITTLE, CODING_BIG } cod
 typedef struct element {
     crease_span name;
     uint64_t count;
+    crease_span digits; /* of the count */
     crease_columns properties;
 } element;
 
@@ -114,6 +115,8 @@ static crease_status read_element(ply *file, crease_span line)
         return fail_header(file, "an element without a name:", line);
     if (!crease_span_word(&line, &count) || !crease_span_count(count, &made->count))
         return fail_header(file, "the count of an element is no whole number:", count);
+    made->digits = count;
+    made->digits.end = line.at;
     file->element_count++;
     return CREASE_OK;
 }
@@ -365,7 +368,8 @@ static crease_status read_binary(ply *file, element *vertices, crease_cloud **ou
     for (const element *part = file->elements; part < vertices && status == CREASE_OK; part++)
         status = skip_element(file, part);
     bool lists = false;
-    layout points = {.first = (size_t)(file->cursor.at - file->source->bytes),
+    layout points = {
+        .first = (size_t)(file->cursor.at - file->source->bytes) + file->source->bytes_before,
         .size = least_size(vertices, &lists)};
     if (lists)
         points.size = 0;
@@ -404,19 +408,70 @@ static crease_status read_file(ply *file, crease_cloud **out)
                                         : read_binary(file, vertices, out);
 }
 
-crease_status crease_ply_read(crease_context *context, const crease_source *source,
-    const crease_read_options *options, crease_cloud **out)
+static ply *open_file(
+    crease_context *context, const crease_source *source, const crease_read_options *options)
 {
     ply *const file = crease_allocate(context, 1, sizeof *file);
     if (!file)
-        return CREASE_ERROR_NO_MEMORY;
+        return NULL;
     file->context = context;
     file->source = source;
     file->options = options;
     file->cursor = (crease_cursor){.at = source->bytes, .end = source->bytes + source->size};
-    const crease_status status = read_file(file, out);
+    return file;
+}
+
+static void close_file(ply *file)
+{
     for (size_t i = 0; i < file->element_count; i++)
         crease_columns_free(&file->elements[i].properties);
     free(file);
+}
+
+crease_status crease_ply_read(crease_context *context, const crease_source *source,
+    const crease_read_options *options, crease_cloud **out)
+{
+    ply *const file = open_file(context, source, options);
+    if (!file)
+        return CREASE_ERROR_NO_MEMORY;
+    const crease_status status = read_file(file, out);
+    close_file(file);
+    return status;
+}
+
+/* ------------------------------------------------------------------------------------ layout -- */
+
+static crease_status find_layout(ply *file, crease_layout *out)
+{
+    crease_status status = read_header(file);
+    if (status != CREASE_OK)
+        return status;
+    bool lists = true;
+    const element *const first = &file->elements[0];
+    const bool vertices = file->element_count > 0 && crease_span_is(first->name, "vertex");
+    const size_t size = vertices ? least_size(first, &lists) : 0;
+    if (!vertices || lists || size == 0 || file->coding == CODING_ASCII)
+        return crease_fail(file->context, CREASE_ERROR_UNSUPPORTED,
+            "%s: only a binary PLY file that begins with its points, without lists, can be read in "
+            "parts; write it so on a machine that holds it",
+            file->source->name);
+    const char *const begin = file->source->bytes;
+    *out = (crease_layout){.count = first->count,
+        .size = size,
+        .first = (size_t)(file->cursor.at - begin),
+        .numeral = {(size_t)(first->digits.at - begin), (size_t)(first->digits.end - begin)},
+        .alone = file->element_count == 1};
+    return CREASE_OK;
+}
+
+crease_status crease_ply_layout(
+    crease_context *context, const crease_source *head, crease_layout *out)
+{
+    const crease_read_options options = crease_read_options_default();
+    ply *const file = open_file(context, head, &options);
+    if (!file)
+        return CREASE_ERROR_NO_MEMORY;
+    const crease_status status = find_layout(file, out);
+    close_file(file);
     return status;
 }

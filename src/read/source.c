@@ -15,7 +15,7 @@
 
 enum { FIRST_ROOM = 1 << 16, MOST_AT_ONCE = 1 << 30 };
 
-static crease_status refuse(crease_context *context, const char *name, int error)
+crease_status crease_source_refuse(crease_context *context, const char *name, int error)
 {
     if (error == ENOENT || error == ENOTDIR)
         return crease_fail(context, CREASE_ERROR_NO_SUCH_FILE,
@@ -34,7 +34,7 @@ static crease_status refuse(crease_context *context, const char *name, int error
 static crease_status check_kind(crease_context *context, const char *path, struct stat *info)
 {
     if (stat(path, info) != 0)
-        return refuse(context, path, errno);
+        return crease_source_refuse(context, path, errno);
     if (S_ISDIR(info->st_mode))
         return crease_fail(context, CREASE_ERROR_CANNOT_READ,
             "%s: is a directory, not a file; name a file in it", path);
@@ -74,7 +74,7 @@ static crease_status read_all(crease_context *context, int file, size_t room, cr
             return CREASE_ERROR_NO_MEMORY;
         const ssize_t got = read_some(file, source->bytes + source->size, room - 1 - source->size);
         if (got < 0)
-            return refuse(context, source->name, errno);
+            return crease_source_refuse(context, source->name, errno);
         if (got == 0)
             break;
         source->size += (size_t)got;
@@ -94,7 +94,7 @@ static crease_status open_path(
         return status;
     *file = open(path, O_RDONLY | O_CLOEXEC);
     *file_size = info.st_size > 0 ? (size_t)info.st_size : 0;
-    return *file < 0 ? refuse(context, path, errno) : CREASE_OK;
+    return *file < 0 ? crease_source_refuse(context, path, errno) : CREASE_OK;
 }
 
 crease_status crease_source_open(crease_context *context, const char *path, crease_source *out)

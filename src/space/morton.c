@@ -18,7 +18,7 @@ enum { AXIS_BITS = 21, DIGIT_BITS = 11, DIGITS = 1 << DIGIT_BITS, PASSES = 6, MO
 struct sorting {
     const double *points;
     size_t count, grain, chunks;
-    double low[3], scale;
+    crease_morton_frame frame;
     uint64_t *keys, *next_keys;
     uint32_t *order, *next_order;
     size_t *places; /* chunks x DIGITS: counts, then where the next point of the digit goes */
@@ -26,26 +26,34 @@ struct sorting {
 };
 
 /* Halved, so that the extent of any finite cloud is finite. */
-static void frame(struct sorting *sort)
+crease_morton_frame crease_morton_frame_of(const double low[3], const double high[3])
+{
+    crease_morton_frame frame;
+    double extent = 0;
+    for (int axis = 0; axis < 3; axis++) {
+        frame.low[axis] = 0.5 * low[axis];
+        extent = fmax(extent, 0.5 * high[axis] - frame.low[axis]);
+    }
+    frame.scale = (1 << AXIS_BITS) / extent;
+    return frame;
+}
+
+static crease_morton_frame frame_of(const double *points, size_t count)
 {
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (size_t i = 0; i < sort->count; i++)
+    for (size_t i = 0; i < count; i++)
         for (int axis = 0; axis < 3; axis++) {
-            const double value = 0.5 * sort->points[3 * i + (size_t)axis];
+            const double value = points[3 * i + (size_t)axis];
             low[axis] = value < low[axis] ? value : low[axis];
             high[axis] = value > high[axis] ? value : high[axis];
         }
-    double extent = 0;
-    for (int axis = 0; axis < 3; axis++)
-        extent = fmax(extent, high[axis] - low[axis]);
-    memcpy(sort->low, low, sizeof low);
-    sort->scale = (1 << AXIS_BITS) / extent;
+    return crease_morton_frame_of(low, high);
 }
 
 /* Not a number (0 times the infinite scale of a cloud without extent) falls into cell 0. */
-static uint64_t cell(const struct sorting *sort, double value, int axis)
+static uint64_t cell(const crease_morton_frame *frame, double value, int axis)
 {
-    const double place = (0.5 * value - sort->low[axis]) * sort->scale;
+    const double place = (0.5 * value - frame->low[axis]) * frame->scale;
     const double last = (1 << AXIS_BITS) - 1;
     return place > 0 ? (uint64_t)(place < last ? place : last) : 0;
 }
@@ -60,14 +68,18 @@ static uint64_t spread(uint64_t bits)
     return (bits | bits << 2) & 0x1249249249249249u;
 }
 
+uint64_t crease_morton_key(const crease_morton_frame *frame, const double point[3])
+{
+    return spread(cell(frame, point[0], 0)) << 2 | spread(cell(frame, point[1], 1)) << 1 |
+        spread(cell(frame, point[2], 2));
+}
+
 static void make_keys(void *user, size_t begin, size_t end, int worker)
 {
     (void)worker;
     const struct sorting *sort = user;
     for (size_t i = begin; i < end; i++) {
-        const double *point = sort->points + 3 * i;
-        sort->keys[i] = spread(cell(sort, point[0], 0)) << 2 |
-            spread(cell(sort, point[1], 1)) << 1 | spread(cell(sort, point[2], 2));
+        sort->keys[i] = crease_morton_key(&sort->frame, sort->points + 3 * i);
         sort->order[i] = (uint32_t)i;
     }
 }
@@ -134,7 +146,7 @@ static crease_status pass(crease_context *context, struct sorting *sort)
 
 static crease_status run(crease_context *context, struct sorting *sort)
 {
-    frame(sort);
+    sort->frame = frame_of(sort->points, sort->count);
     crease_status status = crease_parallel_for(context, sort->count, sort->grain, make_keys, sort);
     for (unsigned i = 0; i < PASSES && status == CREASE_OK; i++) {
         sort->shift = i * DIGIT_BITS;

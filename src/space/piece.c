@@ -5,45 +5,74 @@
  * rounds monotonically: no point that is as near as the limit is missed by rounding. */
 #include "space/piece.h"
 
+#include "base/memory.h"
 #include "base/parallel.h"
+#include "base/select.h"
+#include "space/nearest.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { GRAIN = 32 };
+enum { GRAIN = 32, MANY = 32 };
+
+/* Squared: a leaf whose reach is more than this many times the usual one is among outliers, or at a
+ * gap. */
+static const double unusual = 16.0;
+
+/* What a leaf asks for. */
+typedef struct demand {
+    double limit;  /* squared */
+    bool apart;    /* its points ask each for itself */
+    size_t begins; /* number of its first reach */
+} demand;
 
 struct reaching {
     const crease_tree *tree;
     int k;
+    demand *leaves;
+    double usual;
     crease_reach *reaches;
 };
 
-static void reach_leaves(void *user, size_t begin, size_t end, int worker)
+static const crease_node *leaf_of(const struct reaching *run, size_t leaf)
+{
+    return run->tree->nodes + run->tree->leaves[leaf];
+}
+
+/* Squared distances of the k-th nearest of each point of a leaf; infinite when there are fewer. */
+static void find_limits(const struct reaching *run, size_t leaf, double *hint, double *limits)
+{
+    const size_t k = (size_t)run->k;
+    const crease_node *const node = leaf_of(run, leaf);
+    uint32_t positions[CREASE_LEAF_POINTS * CREASE_MOST_NEIGHBOURS];
+    double distances[CREASE_LEAF_POINTS * CREASE_MOST_NEIGHBOURS];
+    if (run->tree->count >= k)
+        crease_tree_leaf_nearest(run->tree, leaf, run->k, hint, positions, distances);
+    for (uint32_t i = 0; i < node->end - node->begin; i++)
+        limits[i] = run->tree->count < k ? INFINITY : distances[i * k + k - 1];
+}
+
+static void measure_leaves(void *user, size_t begin, size_t end, int worker)
 {
     (void)worker;
     const struct reaching *const run = user;
-    const size_t k = (size_t)run->k;
-    uint32_t positions[CREASE_LEAF_POINTS * CREASE_MOST_NEIGHBOURS];
-    double distances[CREASE_LEAF_POINTS * CREASE_MOST_NEIGHBOURS], hint = 0;
+    double limits[CREASE_LEAF_POINTS], hint = 0;
     for (size_t leaf = begin; leaf < end; leaf++) {
-        const crease_node *const node = run->tree->nodes + run->tree->leaves[leaf];
-        crease_reach *const reach = &run->reaches[leaf];
-        memcpy(reach->low, node->low, sizeof reach->low);
-        memcpy(reach->high, node->high, sizeof reach->high);
-        reach->limit = run->tree->count < k ? INFINITY : 0;
-        if (run->tree->count < k)
-            continue;
-        crease_tree_leaf_nearest(run->tree, leaf, run->k, &hint, positions, distances);
+        const crease_node *const node = leaf_of(run, leaf);
+        find_limits(run, leaf, &hint, limits);
+        run->leaves[leaf].limit = 0;
         for (uint32_t i = 0; i < node->end - node->begin; i++)
-            reach->limit = fmax(reach->limit, distances[i * k + k - 1]);
+            run->leaves[leaf].limit = fmax(run->leaves[leaf].limit, limits[i]);
     }
 }
 
-crease_status crease_reach_find(
-    crease_context *context, const crease_tree *tree, int k, crease_reach *reaches)
+static crease_reach reach_of(const crease_node *node, double limit)
 {
-    struct reaching run = {tree, k, reaches};
-    return crease_parallel_for(context, tree->leaf_count, GRAIN, reach_leaves, &run);
+    crease_reach reach = {.limit = limit};
+    memcpy(reach.low, node->low, sizeof reach.low);
+    memcpy(reach.high, node->high, sizeof reach.high);
+    return reach;
 }
 
 static double outside(double low, double high, double value)
@@ -51,6 +80,135 @@ static double outside(double low, double high, double value)
     const double below = low - value, above = value - high;
     const double away = below > above ? below : above;
     return away > 0 ? away : 0;
+}
+
+static size_t count_within(
+    const crease_reach *reach, const crease_tree *tree, const crease_node *leaf)
+{
+    size_t count = 0;
+    for (uint32_t i = leaf->begin; i < leaf->end; i++) {
+        const double dx = outside(reach->low[0], reach->high[0], tree->x[i]);
+        const double dy = outside(reach->low[1], reach->high[1], tree->y[i]);
+        const double dz = outside(reach->low[2], reach->high[2], tree->z[i]);
+        count += dx * dx + dy * dy + dz * dz <= reach->limit;
+    }
+    return count;
+}
+
+/* Whether the reach holds more than `most` points of the tree. */
+static bool holds_more(const crease_reach *reach, const crease_tree *tree, size_t most)
+{
+    uint32_t stack[CREASE_TREE_DEPTH];
+    int height = 0;
+    size_t count = 0;
+    stack[height++] = 0;
+    while (height > 0 && count <= most) {
+        const crease_node *const node = tree->nodes + stack[--height];
+        if (!crease_reach_touches(reach, node->low, node->high))
+            continue;
+        if (node->second) {
+            stack[height++] = node->second;
+            stack[height++] = (uint32_t)(node + 1 - tree->nodes);
+        } else {
+            count += count_within(reach, tree, node);
+        }
+    }
+    return count > most;
+}
+
+/* The points of a leaf by themselves never want more than k each. */
+static void judge_leaves(void *user, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const struct reaching *const run = user;
+    for (size_t leaf = begin; leaf < end; leaf++) {
+        const double limit = run->leaves[leaf].limit;
+        const crease_reach reach = reach_of(leaf_of(run, leaf), limit);
+        run->leaves[leaf].apart = !(limit <= unusual * run->usual) ||
+            holds_more(&reach, run->tree, (size_t)MANY * (size_t)run->k);
+    }
+}
+
+static void write_reaches(void *user, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const struct reaching *const run = user;
+    const crease_tree *const tree = run->tree;
+    double limits[CREASE_LEAF_POINTS], hint = 0;
+    for (size_t leaf = begin; leaf < end; leaf++) {
+        const crease_node *const node = leaf_of(run, leaf);
+        crease_reach *const reaches = run->reaches + run->leaves[leaf].begins;
+        reaches[0] = reach_of(node, run->leaves[leaf].limit);
+        if (!run->leaves[leaf].apart)
+            continue;
+        find_limits(run, leaf, &hint, limits);
+        for (uint32_t i = 0; i < node->end - node->begin; i++) {
+            const uint32_t at = node->begin + i;
+            const double place[3] = {tree->x[at], tree->y[at], tree->z[at]};
+            reaches[i] = (crease_reach){.limit = limits[i], .nearest = (uint64_t)run->k};
+            memcpy(reaches[i].low, place, sizeof place);
+            memcpy(reaches[i].high, place, sizeof place);
+        }
+    }
+}
+
+/* The median of the leaves' limits. */
+static crease_status find_usual(crease_context *context, struct reaching *run)
+{
+    const size_t count = run->tree->leaf_count;
+    double *const limits = crease_allocate(context, count, sizeof *limits);
+    if (!limits)
+        return CREASE_ERROR_NO_MEMORY;
+    for (size_t leaf = 0; leaf < count; leaf++)
+        limits[leaf] = run->leaves[leaf].limit;
+    run->usual = count > 0 && run->tree->count >= (size_t)run->k
+        ? crease_select(limits, count, count / 2)
+        : 0.0;
+    free(limits);
+    return CREASE_OK;
+}
+
+static crease_status list_reaches(
+    crease_context *context, struct reaching *run, crease_reaches *out)
+{
+    size_t count = 0;
+    for (size_t leaf = 0; leaf < run->tree->leaf_count; leaf++) {
+        const crease_node *const node = leaf_of(run, leaf);
+        run->leaves[leaf].begins = count;
+        count += run->leaves[leaf].apart ? node->end - node->begin : 1;
+    }
+    out->items = run->reaches = crease_allocate(context, count, sizeof *out->items);
+    out->count = count;
+    return out->items
+        ? crease_parallel_for(context, run->tree->leaf_count, GRAIN, write_reaches, run)
+        : CREASE_ERROR_NO_MEMORY;
+}
+
+crease_status crease_reaches_find(
+    crease_context *context, const crease_tree *tree, int k, crease_reaches *out)
+{
+    struct reaching run = {.tree = tree, .k = k};
+    *out = (crease_reaches){0};
+    run.leaves = crease_allocate(context, tree->leaf_count, sizeof *run.leaves);
+    crease_status status = run.leaves
+        ? crease_parallel_for(context, tree->leaf_count, GRAIN, measure_leaves, &run)
+        : CREASE_ERROR_NO_MEMORY;
+    if (status == CREASE_OK)
+        status = find_usual(context, &run);
+    if (status == CREASE_OK)
+        status = crease_parallel_for(context, tree->leaf_count, GRAIN, judge_leaves, &run);
+    if (status == CREASE_OK)
+        status = list_reaches(context, &run, out);
+    free(run.leaves);
+    if (status != CREASE_OK)
+        crease_reaches_free(out);
+    return status;
+}
+
+void crease_reaches_free(crease_reaches *reaches)
+{
+    free(reaches->items);
+    *reaches = (crease_reaches){0};
 }
 
 static double gap(double low, double high, double other_low, double other_high)
@@ -70,6 +228,17 @@ bool crease_reach_touches(const crease_reach *reach, const double low[3], const 
     return squared <= reach->limit;
 }
 
+double crease_reach_limit(const crease_reach *reach, const crease_tree *tree)
+{
+    uint32_t positions[CREASE_MOST_NEIGHBOURS];
+    double distances[CREASE_MOST_NEIGHBOURS];
+    if (!reach->nearest || tree->count < reach->nearest)
+        return reach->limit;
+    crease_tree_nearest_place(
+        tree, reach->low, CREASE_NO_POSITION, (int)reach->nearest, positions, distances);
+    return fmin(reach->limit, distances[reach->nearest - 1]);
+}
+
 static void mark_leaf(
     const crease_reach *reach, const crease_tree *tree, const crease_node *leaf, uint8_t *wanted)
 {
@@ -82,8 +251,11 @@ static void mark_leaf(
     }
 }
 
-void crease_reach_mark(const crease_reach *reach, const crease_tree *tree, uint8_t *wanted)
+void crease_reach_mark(const crease_reach *asked, const crease_tree *tree, uint8_t *wanted)
 {
+    crease_reach within = *asked;
+    const crease_reach *const reach = &within;
+    within.limit = crease_reach_limit(asked, tree);
     uint32_t stack[CREASE_TREE_DEPTH];
     int height = 0;
     if (tree->count > 0)

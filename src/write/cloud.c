@@ -40,7 +40,7 @@ static bool is_word(const char *name)
     return name < end && crease_number_parse(name, end, true, &value) != end;
 }
 
-static crease_status check_names(
+crease_status crease_cloud_check_names(
     crease_context *context, const crease_cloud *cloud, const char *path)
 {
     for (size_t i = 0; i < crease_cloud_field_count(cloud); i++) {
@@ -64,7 +64,7 @@ crease_status crease_cloud_write(
     crease_output *output = NULL;
     crease_status status = crease_output_choose(context, path, extensions, FORMAT_COUNT, &format);
     if (status == CREASE_OK)
-        status = check_names(context, cloud, path);
+        status = crease_cloud_check_names(context, cloud, path);
     if (status == CREASE_OK)
         status = crease_output_open(context, path, &output);
     if (status != CREASE_OK)

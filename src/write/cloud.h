@@ -8,6 +8,9 @@
 #include "write/output.h"
 
 void crease_cloud_write_ply(crease_output *output, const crease_cloud *cloud);
+/* The header of a PLY file of so many points like the cloud's; records of all of them follow. */
+void crease_cloud_write_ply_header(
+    crease_output *output, const crease_cloud *like, size_t count, crease_type normal_type);
 void crease_cloud_write_pcd(crease_output *output, const crease_cloud *cloud);
 
 typedef struct crease_text_style {
@@ -23,6 +26,10 @@ void crease_cloud_write_text(
 /* Type of the written normals: FLOAT32 where that loses nothing. */
 crease_type crease_cloud_normal_type(const crease_cloud *cloud);
 /* All points as packed records, little endian: coordinates, normals, fields. */
-void crease_cloud_write_records(crease_output *output, const crease_cloud *cloud);
+void crease_cloud_write_records(
+    crease_output *output, const crease_cloud *cloud, crease_type normal_type);
+/* Whether fields can be written under their names. Errors: ARGUMENT. */
+crease_status crease_cloud_check_names(
+    crease_context *context, const crease_cloud *cloud, const char *path);
 
 #endif

@@ -55,11 +55,11 @@ static void put_value(crease_output *output, const crease_field *field, size_t p
     }
 }
 
-void crease_cloud_write_records(crease_output *output, const crease_cloud *cloud)
+void crease_cloud_write_records(
+    crease_output *output, const crease_cloud *cloud, crease_type normal_type)
 {
     const double *points = crease_cloud_points(cloud), *normals = crease_cloud_normals(cloud);
     const crease_type type = crease_cloud_coordinate_type(cloud);
-    const crease_type normal_type = crease_cloud_normal_type(cloud);
     for (size_t i = 0; i < crease_cloud_count(cloud) && !crease_output_failed(output); i++) {
         put_triple(output, points + 3 * i, type);
         if (normals)
@@ -80,15 +80,16 @@ static const char *ply_type(crease_type type)
     return names[type];
 }
 
-void crease_cloud_write_ply(crease_output *output, const crease_cloud *cloud)
+void crease_cloud_write_ply_header(
+    crease_output *output, const crease_cloud *cloud, size_t count, crease_type normal_type)
 {
     crease_output_format(output,
         "ply\nformat binary_little_endian 1.0\ncomment crease %s\nelement vertex %zu\n",
-        crease_version(), crease_cloud_count(cloud));
+        crease_version(), count);
     const char *type = ply_type(crease_cloud_coordinate_type(cloud));
     for (int i = 0; i < 3; i++)
         crease_output_format(output, "property %s %c\n", type, axes[i]);
-    type = ply_type(crease_cloud_normal_type(cloud));
+    type = ply_type(normal_type);
     for (int i = 0; i < 3 && crease_cloud_normals(cloud); i++)
         crease_output_format(output, "property %s n%c\n", type, axes[i]);
     for (size_t i = 0; i < crease_cloud_field_count(cloud); i++) {
@@ -98,7 +99,13 @@ void crease_cloud_write_ply(crease_output *output, const crease_cloud *cloud)
         crease_output_text(output, "\n");
     }
     crease_output_text(output, "end_header\n");
-    crease_cloud_write_records(output, cloud);
+}
+
+void crease_cloud_write_ply(crease_output *output, const crease_cloud *cloud)
+{
+    const crease_type normal_type = crease_cloud_normal_type(cloud);
+    crease_cloud_write_ply_header(output, cloud, crease_cloud_count(cloud), normal_type);
+    crease_cloud_write_records(output, cloud, normal_type);
 }
 
 /* --------------------------------------------------------------------------------------- pcd -- */
@@ -157,5 +164,5 @@ void crease_cloud_write_pcd(crease_output *output, const crease_cloud *cloud)
     const size_t count = crease_cloud_count(cloud);
     crease_output_format(output,
         "WIDTH %zu\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS %zu\nDATA binary\n", count, count);
-    crease_cloud_write_records(output, cloud);
+    crease_cloud_write_records(output, cloud, crease_cloud_normal_type(cloud));
 }

@@ -43,6 +43,16 @@ def test_failures_are_exceptions_by_kind(tmp_path, status, kind, call):
     assert isinstance(caught.value, crease.Error)
 
 
+def test_a_limit_of_memory_is_kept():
+    with pytest.raises(MemoryError, match="within the limit"):
+        crease.detect(roof(30000), memory="1M")
+    assert len(crease.detect(roof(600), memory="8G").region) == 600
+    assert len(crease.detect(roof(600), memory=8 * 10**9).region) == 600
+    for wrong in ("much", "2X", "-3G", 2.5):
+        with pytest.raises(crease.UsageError):
+            crease.detect(roof(600), memory=wrong)
+
+
 def test_unknown_options_are_refused_as_python_does():
     with pytest.raises(TypeError, match="colour"):
         crease.fit(roof(100), colour="red")

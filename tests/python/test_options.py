@@ -16,7 +16,7 @@ from crease import _fit
 TABLE = (Path(__file__).parents[2] / "cli/option.c").read_text()
 #: What methods or other calls do here, and what is for files larger than memory.
 ELSEWHERE = {"output", "creases", "points", "report", "skip_invalid", "json", "quiet", "help", "resume",
-             "memory", "scores_only"}
+             "scratch"}
 
 
 def program_options(command):
@@ -34,7 +34,7 @@ def test_keywords_are_those_of_the_program(command):
 
 
 def test_the_options_of_fit_are_those_of_the_program():
-    taken = set().union(*_fit._TAKES.values()) | {"method", "seed", "threads"}
+    taken = set().union(*_fit._TAKES.values()) | {"method", "seed", "threads", "memory"}
     assert taken == program_options("fit")
 
 
@@ -45,5 +45,5 @@ def test_each_method_of_fit_has_its_options_in_its_signature():
     for overload in get_overloads(crease.fit):
         parameters = dict(inspect.signature(overload, eval_str=True).parameters)
         method, = get_args(parameters.pop("method").annotation)
-        told[method] = set(parameters) - {"points", "seed", "threads", "progress"}
+        told[method] = set(parameters) - {"points", "seed", "threads", "memory", "progress"}
     assert told == _fit._TAKES

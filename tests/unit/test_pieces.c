@@ -52,17 +52,17 @@ static void ask(const cut *all, const crease_reach *reaches, size_t count, size_
 static void complete(crease_context *context, const cut *all, size_t piece, int k)
 {
     crease_tree *own = own_tree(context, all, piece);
-    crease_reach *reaches = malloc((own->leaf_count + 1) * sizeof *reaches);
-    assert_int_equal(crease_reach_find(context, own, k, reaches), CREASE_OK);
+    crease_reaches reaches;
+    assert_int_equal(crease_reaches_find(context, own, k, &reaches), CREASE_OK);
     for (size_t i = 0; i < own->count; i++)
         all->held[piece * all->count + all->order[first_of(all, piece) + i]] = 1;
     for (size_t from = 0; from < all->pieces; from++)
         if (from != piece) {
             crease_tree *other = own_tree(context, all, from);
-            ask(all, reaches, own->leaf_count, piece, other, from);
+            ask(all, reaches.items, reaches.count, piece, other, from);
             crease_tree_free(other);
         }
-    free(reaches);
+    crease_reaches_free(&reaches);
     crease_tree_free(own);
 }
 
@@ -249,6 +249,48 @@ static void given_far_coordinates_then_rounding_hides_no_neighbour(void **state)
     expect_same(far, 4, &options);
 }
 
+/* A panel, and points that are scattered far around it. */
+static crease_cloud *given_outliers(size_t count)
+{
+    crease_context *context = given_context();
+    crease_cloud *panel = given_panel(count), *cloud = NULL;
+    double *points = malloc(3 * count * sizeof *points), low[3], high[3];
+    crease_cloud_bounds(panel, low, high);
+    memcpy(points, crease_cloud_points(panel), 3 * count * sizeof *points);
+    uint32_t random = 1;
+    for (size_t i = 0; i < 3 * count; i++) {
+        random = random * 1664525u + 1013904223u;
+        if (i / 3 % 40 == 0)
+            points[i] = low[0] + (high[0] - low[0]) * 3.0 * ((double)random / 4294967296.0 - 0.5);
+    }
+    const crease_cloud_parts parts = {
+        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
+    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    free(points);
+    crease_cloud_free(panel);
+    crease_context_free(context);
+    return cloud;
+}
+
+static void given_outliers_then_pieces_ask_for_little_and_nothing_changes(void **state)
+{
+    crease_detect_options options = crease_detect_options_default();
+    options.resamples = 10;
+    expect_same(given_outliers(4000), 6, &options);
+    crease_context *context = given_context();
+    cut all = given_cut(context, given_outliers(20000), 4, 16);
+    for (size_t piece = 0; piece < all.pieces; piece++) {
+        size_t own = 0, others = 0;
+        for (size_t i = 0; i < all.count; i++) {
+            own += all.held[piece * all.count + i] == 1;
+            others += all.held[piece * all.count + i] == 2;
+        }
+        assert_true(others < own); /* with one reach for each leaf they are nearly all there are */
+    }
+    cut_free(&all);
+    crease_context_free(context);
+}
+
 static void given_the_boxes_of_a_tree_then_they_hold_all_its_points(void **state)
 {
     crease_context *context = given_context();
@@ -279,6 +321,7 @@ int main(void)
         cmocka_unit_test(given_pieces_of_fewer_points_than_neighbours_then_nothing_changes),
         cmocka_unit_test(given_equal_distances_then_they_are_ordered_as_in_the_whole_cloud),
         cmocka_unit_test(given_far_coordinates_then_rounding_hides_no_neighbour),
+        cmocka_unit_test(given_outliers_then_pieces_ask_for_little_and_nothing_changes),
         cmocka_unit_test(given_the_boxes_of_a_tree_then_they_hold_all_its_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
