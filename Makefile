@@ -2,8 +2,10 @@
 
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
+# The benchmarks need a Python with numpy and scipy.
+PYTHON ?= $(shell for p in python3 /usr/bin/python3; do $$p -c 'import numpy, scipy' 2>/dev/null && echo $$p && break; done || echo python3)
 
-.PHONY: build demo test bench-rivals bench-fits install uninstall dist deb sbom clean
+.PHONY: build demo test bench bench-build bench-rivals bench-fits install uninstall dist deb sbom clean
 
 build:
 	@tools/install-dependencies build
@@ -19,16 +21,21 @@ test:
 	@cmake --build build -j $(JOBS) -- --no-print-directory
 	@cd build && ctest --output-on-failure -j $(JOBS)
 
-# Measures whatever of the others is installed; docs/rivals.md names the packages.
-bench-rivals:
-	@cmake -S . -B build-bench -DCREASE_BENCH=ON -DCREASE_TESTS=OFF >/dev/null
-	@cmake --build build-bench -j $(JOBS) -- --no-print-directory
-	@bench/rivals build-bench --json build-bench/rivals.json --table build-bench/rivals.md
+# Ours and whatever of the others is installed, in one run: docs/benchmarks.md. BENCH=--full for larger clouds,
+# BENCH=--keep to keep the result.
+bench: bench-build
+	@$(PYTHON) bench/all build-bench build-bench/results $(BENCH)
 
-bench-fits:
+bench-build:
 	@cmake -S . -B build-bench -DCREASE_BENCH=ON -DCREASE_TESTS=OFF >/dev/null
 	@cmake --build build-bench -j $(JOBS) -- --no-print-directory
-	@bench/fits build-bench --table build-bench/fits.md
+
+# Measures whatever of the others is installed; docs/rivals.md names the packages.
+bench-rivals: bench-build
+	@$(PYTHON) bench/rivals build-bench --json build-bench/rivals.json --table build-bench/rivals.md
+
+bench-fits: bench-build
+	@$(PYTHON) bench/fits build-bench --table build-bench/fits.md
 
 install: build
 	@cmake --install build

@@ -2,14 +2,17 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* usage: bench-neighbours [MOST_POINTS [LEAST_POINTS]]
+ *        bench-neighbours once POINTS K
  * The K nearest neighbours of all points, sorting and making the tree included, beside nanoflann.
- * Each line is the best of as many runs as together search 10^6 points, one at least. */
+ * Each line is the best of as many runs as together search 10^6 points, one at least. The second
+ * form is a single run of ours on one thread, points in random order: to count its instructions. */
 #include "bench.h"
 #include "peer.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* What is measured, and the best run so far. */
 typedef struct measurement {
@@ -76,6 +79,20 @@ static void measure_peer(measurement m)
 }
 #endif
 
+static int once(size_t count, int k)
+{
+    crease_context *context = bench_context(1);
+    double *points = bench_points(context, count, false);
+    crease_cloud *cloud = points ? bench_cloud(context, points, count) : NULL;
+    crease_neighbours *neighbours = NULL;
+    const bool found = cloud && crease_neighbours_find(context, cloud, k, &neighbours) == CREASE_OK;
+    crease_neighbours_free(neighbours);
+    crease_cloud_free(cloud);
+    free(points);
+    crease_context_free(context);
+    return found ? 0 : 1;
+}
+
 static void measure_all(size_t count, bool sorted)
 {
     crease_context *context = bench_context(2);
@@ -96,6 +113,8 @@ static void measure_all(size_t count, bool sorted)
 
 int main(int count, char **arguments)
 {
+    if (count == 4 && strcmp(arguments[1], "once") == 0)
+        return once(strtoul(arguments[2], NULL, 10), atoi(arguments[3]));
     const size_t most = count > 1 ? strtoul(arguments[1], NULL, 10) : 1000000;
     const size_t least = count > 2 ? strtoul(arguments[2], NULL, 10) : 100000;
     for (size_t points = least; points <= most; points *= 10) {
