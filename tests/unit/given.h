@@ -31,9 +31,11 @@ static inline crease_context *given_context_with_threads(int threads)
     return context;
 }
 
+/* Two threads; as many as CREASE_TEST_THREADS says where races are sought. */
 static inline crease_context *given_context(void)
 {
-    return given_context_with_threads(2);
+    const char *const threads = getenv("CREASE_TEST_THREADS");
+    return given_context_with_threads(threads ? atoi(threads) : 2);
 }
 
 #define assert_near(a, b, tolerance)                                                               \
