@@ -45,7 +45,8 @@ def counter():
 
 
 def count(how, arguments, folder):
-    """Instructions of a program and of those that it starts; None when it fails."""
+    """Instructions of a program and of those that it starts; None when it fails. Under valgrind a forked
+    process brings the count of the one it comes from."""
     environment = dict(os.environ, **ONE_THREAD)
     quiet = {'stdout': subprocess.DEVNULL, 'stderr': subprocess.DEVNULL, 'env': environment}
     if how == 'perf':
