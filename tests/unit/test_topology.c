@@ -423,6 +423,33 @@ static void given_face_in_three_pieces_when_found_then_they_meet_in_a_vertex(voi
 
 /* --------------------------------------------------------------------------- lost points -- */
 
+static bool outside_hole(const double *p, int32_t label)
+{
+    return label < 5 || hypot(p[0], p[1]) > 2.6 * S;
+}
+
+static void given_pieces_around_a_hole_when_found_then_they_meet_in_it(void **state)
+{
+    given_body box = given_box(0.3, 0.3, 0.5);
+    given_points points = keep(given_sample(&box, S, 0, 5), outside_hole);
+    for (int i = 0; i < 2; i++)
+        given_add(&box, box.models[5]);
+    for (size_t i = 0; i < points.count; i++) {
+        const double *const p = points.points + 3 * i;
+        if (points.labels[i] == 5 && p[1] > 0)
+            points.labels[i] = p[0] > 0 ? 7 : 6;
+    }
+    world w = world_of_points(&box, points, S, 0);
+    check_counts(w.topology, 12, 18, 8);
+    size_t inside = 0;
+    for (size_t v = 0; v < w.topology->vertex_count; v++) {
+        const double *const place = w.topology->vertices[v].place;
+        inside += fabs(place[2] - 0.5) < 1e-9 && hypot(place[0], place[1]) < 2.6 * S;
+    }
+    assert_int_equal(inside, 1);
+    end_world(&w);
+}
+
 static bool outside_shadow(const double *p, int32_t label)
 {
     return p[0] + p[1] + p[2] < 0.95;
@@ -607,6 +634,7 @@ int main(void)
         cmocka_unit_test(given_face_in_two_pieces_when_found_then_the_points_say_where_it_parts),
         cmocka_unit_test(given_fillet_tangent_by_construction_when_found_then_it_stays_as_it_is),
         cmocka_unit_test(given_face_in_three_pieces_when_found_then_they_meet_in_a_vertex),
+        cmocka_unit_test(given_pieces_around_a_hole_when_found_then_they_meet_in_it),
         cmocka_unit_test(given_corner_without_points_when_found_then_it_is_where_edges_meet),
         cmocka_unit_test(given_edge_without_points_when_found_then_it_is_bridged),
         cmocka_unit_test(given_face_without_points_when_found_then_neighbours_are_open),
