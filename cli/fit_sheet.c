@@ -86,14 +86,18 @@ static crease_status trim(crease_context *context, const settings *s, report *r,
 static crease_status make_clouds(crease_context *context, const crease_cloud *cloud, result *all)
 {
     const double *variance = crease_sheet_variance(all->sheet);
-    const crease_field fields[] = {
-        {"deviation", CREASE_TYPE_FLOAT64, crease_sheet_deviations(all->sheet)},
-        {"variance", CREASE_TYPE_FLOAT64, variance},
-    };
+    const double *errors = crease_sheet_standard_errors(all->sheet);
+    crease_field fields[3] = {
+        {"deviation", CREASE_TYPE_FLOAT64, crease_sheet_deviations(all->sheet)}};
+    size_t field_count = 1;
+    if (errors)
+        fields[field_count++] = (crease_field){"standard_error", CREASE_TYPE_FLOAT64, errors};
+    if (variance)
+        fields[field_count++] = (crease_field){"variance", CREASE_TYPE_FLOAT64, variance};
     const crease_cloud_parts parts = {.count = crease_cloud_count(cloud),
         .points = crease_sheet_projected(all->sheet),
         .fields = fields,
-        .field_count = variance ? 2 : 1,
+        .field_count = field_count,
         .coordinate_type = CREASE_TYPE_FLOAT64};
     crease_status status =
         crease_cloud_with_fields(context, cloud, fields, parts.field_count, &all->cloud);
@@ -200,6 +204,19 @@ static void describe_trim(report *r, const result *all)
     report_line(r, "trimmed to the border of the points, holes inside faces: %zu", holes);
 }
 
+/* How exactly the sheet is known, over the points. */
+static void describe_errors(report *r, const result *all)
+{
+    const double *errors = crease_sheet_standard_errors(all->sheet);
+    if (!errors)
+        return;
+    const deviation_summary d = deviation_summarise(errors, crease_sheet_point_count(all->sheet));
+    cJSON *object = cJSON_AddObjectToObject(r->root, "standard_error");
+    cJSON_AddNumberToObject(object, "rms", d.rms);
+    cJSON_AddNumberToObject(object, "p95", d.p95);
+    cJSON_AddNumberToObject(object, "max", d.most);
+}
+
 static void describe(report *r, const result *all)
 {
     const size_t faces = all->trim ? crease_trim_face_count(all->trim) : all->face_count;
@@ -207,6 +224,7 @@ static void describe(report *r, const result *all)
     const deviation_summary d = deviation_summarise(crease_sheet_deviations(all->sheet), count);
     const crease_surface_parts parts = crease_surface_parts_of(crease_sheet_surface(all->sheet));
     deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
+    describe_errors(r, all);
     cJSON_AddNumberToObject(r->root, "face_count", (double)faces);
     report_line(r, "%zu x %zu control points, %zu faces, %zu creases", parts.count[0],
         parts.count[1], faces, all->line_count);

@@ -704,7 +704,8 @@ CREASE_API crease_status crease_sheet_fit(crease_context *context, const crease_
     const crease_sheet_options *options, crease_sheet **out);
 /** Tells whether a sheet carries the creases of its cloud: whether its points are no further from
  * it than their noise explains, the creases of the network lie on its lines, within half a spacing
- * but for a tenth of their length, and it bends sharply nowhere else. regions and network: of the
+ * but for a tenth of their length, and it bends sharply nowhere else; or whether they lie on it
+ * within 1e-7 spacings, four points or more for each control point. regions and network: of the
  * cloud that the sheet was fitted to. Errors: ARGUMENT (of another cloud), NO_MEMORY, CANCELLED. */
 CREASE_API crease_status crease_sheet_carries(crease_context *context, const crease_sheet *sheet,
     const crease_regions *regions, const crease_network *network, bool *carries);
@@ -729,6 +730,12 @@ CREASE_API const double *crease_sheet_projected(const crease_sheet *sheet);
 CREASE_API const double *crease_sheet_deviations(const crease_sheet *sheet);
 /** Bootstrap variance of every data point, or NULL when the method needed none. */
 CREASE_API const double *crease_sheet_variance(const crease_sheet *sheet);
+/** Standard error of the sheet at the foot of every data point, along its normal: from the
+ * covariance of the control points, of the places of the lines and of the turn of the frame, with
+ * the points' own scatter as their error. NULL where it is not known: sheets with curved creases,
+ * nets of more than 4096 control points, the paper's algorithm. Based on: Wahba. Bayesian
+ * confidence intervals for the cross-validated smoothing spline. 1983. */
+CREASE_API const double *crease_sheet_standard_errors(const crease_sheet *sheet);
 /** Splits the sheet at all its crease lines into smooth surfaces, u-major, that share their border
  * control points exactly. *count surfaces; free each and the array with
  * crease_surfaces_free(). */

@@ -361,6 +361,7 @@ FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "crease_sheet_projected": (_numbers, _object),
     "crease_sheet_deviations": (_numbers, _object),
     "crease_sheet_variance": (_numbers, _object),
+    "crease_sheet_standard_errors": (_numbers, _object),
     "crease_sheet_faces": (c_int, _object, _object, _out, POINTER(c_size_t)),
     "crease_surfaces_free": (None, _numbers, c_size_t),
     # meshes

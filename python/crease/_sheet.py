@@ -149,6 +149,13 @@ class Sheet(Seen):
         address = LIBRARY.crease_sheet_variance(self._handle)
         return self._per_point(address) if address else None
 
+    @property
+    def standard_errors(self) -> NDArray[np.float64] | None:
+        """Standard error of the sheet at the foot of every point, along its normal, or None where it
+        is not known: curved creases, nets of more than 4096 control points, averaging."""
+        address = LIBRARY.crease_sheet_standard_errors(self._handle)
+        return self._per_point(address) if address else None
+
     def _frame(self) -> tuple[Any, Any]:
         rotation, origin = (c_double * 9)(), (c_double * 3)()
         LIBRARY.crease_sheet_frame(self._handle, rotation, origin)
@@ -182,12 +189,14 @@ class Sheet(Seen):
 
     @cached_property
     def cloud(self) -> Cloud:
-        """The cloud with the field `deviation`, and with `variance` where there is one."""
+        """The cloud with the field `deviation`, and with `standard_error` and `variance` where there
+        are such."""
         return self._cloud.with_fields(**self._fields())
 
     def _fields(self) -> dict[str, NDArray[np.float64]]:
-        fields = {"deviation": self.deviations}
-        return fields if self.variance is None else {**fields, "variance": self.variance}
+        fields = {"deviation": self.deviations, "standard_error": self.standard_errors,
+                  "variance": self.variance}
+        return {name: values for name, values in fields.items() if values is not None}
 
     def write_creases(self, path: Path) -> None:
         """Writes the creases: as lines to .ply .obj .csv, as the curves that they are to .step .stp

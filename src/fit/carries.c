@@ -13,6 +13,9 @@
 
 enum { MOST_PARTS = 4000, CHORDS = 64 };
 
+static const double EXACT = 1e-7; /* spacings that a deviation may be, of points without noise */
+static const double FEW =
+    0.25; /* control points for each point, where exactness proves something */
 static const double EXCESS = 1.25;     /* of the residual over the noise */
 static const double ASTRAY = 0.5;      /* spacings between a crease and the sheet's line */
 static const double UNKNOWN = 3.0;     /* spacings from every crease: a bend of the sheet's own */
@@ -162,6 +165,18 @@ static crease_status residual_scale(crease_context *context, const crease_sheet 
     return CREASE_OK;
 }
 
+/* Whether all points lie on the sheet as well as rounding lets them, and are many more than what it
+ * is made of: a crease that it missed, or made up, would show. */
+static bool is_exact(const crease_sheet *sheet, double spacing)
+{
+    const crease_surface_parts parts = crease_surface_parts_of(sheet->surface);
+    double most = 0.0;
+    for (size_t i = 0; i < sheet->point_count; i++)
+        most = fmax(most, fabs(sheet->deviations[i]));
+    return most <= EXACT * spacing &&
+        (double)(parts.count[0] * parts.count[1]) <= FEW * (double)sheet->point_count;
+}
+
 crease_status crease_sheet_carries(crease_context *context, const crease_sheet *sheet,
     const crease_regions *regions, const crease_network *network, bool *carries)
 {
@@ -171,6 +186,10 @@ crease_status crease_sheet_carries(crease_context *context, const crease_sheet *
         return crease_fail(context, CREASE_ERROR_ARGUMENT,
             "sheet: regions of %zu points for a sheet of %zu; give those of the same cloud",
             crease_regions_point_count(regions), sheet->point_count);
+    if (is_exact(sheet, crease_network_spacing(network))) {
+        *carries = true;
+        return CREASE_OK;
+    }
     crease_status status = residual_scale(context, sheet, regions, &scale);
     if (status != CREASE_OK || !(scale <= EXCESS * crease_regions_sigma(regions)))
         return status;

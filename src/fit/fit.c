@@ -11,6 +11,7 @@
 #include "base/memory.h"
 #include "base/vector.h"
 #include "fit/closest.h"
+#include "fit/covariance.h"
 #include "fit/curved.h"
 #include "fit/explore.h"
 #include "fit/isolate.h"
@@ -254,6 +255,23 @@ static crease_status take_all(crease_context *context, work *w, crease_samples *
     return status;
 }
 
+/* Standard errors: of the lines, and, unless a larger net is to come, at all points. */
+static crease_status tell_errors(crease_context *context, work *w)
+{
+    const bool turn = w->options->orientation == CREASE_ORIENTATION_AUTOMATIC;
+    crease_covariance covariance;
+    crease_status status = crease_covariance_create(context, &w->draft, turn, &covariance);
+    if (status == CREASE_OK)
+        crease_covariance_lines(&covariance, w->errors);
+    if (status == CREASE_OK && !w->large) {
+        w->sheet->errors = crease_allocate(context, w->count, sizeof *w->sheet->errors);
+        status = w->sheet->errors ? crease_covariance_points(context, &covariance, w->sheet->errors)
+                                  : CREASE_ERROR_NO_MEMORY;
+    }
+    crease_covariance_free(&covariance);
+    return status;
+}
+
 /* The final fit, on all points. */
 static crease_status finish(crease_context *context, work *w, crease_samples *samples)
 {
@@ -265,7 +283,7 @@ static crease_status finish(crease_context *context, work *w, crease_samples *sa
         status = take_all(context, w, samples);
     crease_samples_free(&some);
     if (status == CREASE_OK)
-        status = crease_lines_errors(context, &w->draft, w->errors);
+        status = tell_errors(context, w);
     if (status == CREASE_OK && w->large)
         status = enlarge(context, w);
     if (status == CREASE_OK)

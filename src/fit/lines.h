@@ -11,9 +11,5 @@
  * that brings the points nearer to the sheet. The draft must be fitted, and is again afterwards. */
 crease_status crease_lines_refine(
     crease_context *context, crease_draft *draft, int steps, bool turn);
-/* Standard error of each line's position, in the order of the layout, direction 0 first; 0 where
- * the points do not determine it. */
-crease_status crease_lines_errors(
-    crease_context *context, crease_draft *draft, double errors[2 * CREASE_MOST_LINES]);
 
 #endif

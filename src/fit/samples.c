@@ -47,8 +47,7 @@ static crease_status sort(crease_context *context, crease_samples *s)
     return status;
 }
 
-/* Number of the point that is sample i. */
-static size_t number_of(const crease_samples *s, size_t i)
+size_t crease_samples_number(const crease_samples *s, size_t i)
 {
     return s->order ? s->order[i] : i * s->step;
 }
@@ -70,7 +69,7 @@ crease_status crease_samples_create(crease_context *context, const double *point
     }
     double farthest = 0.0;
     for (size_t i = 0; i < out->count; i++) {
-        const size_t number = number_of(out, i);
+        const size_t number = crease_samples_number(out, i);
         out->prior[i] = out->weight[i] = keep[number];
         out->used += out->prior[i];
         for (size_t c = 0; c < 3; c++)
@@ -102,7 +101,7 @@ void crease_samples_place(
         low[c] = INFINITY, high[c] = -INFINITY;
     for (size_t i = 0; i < samples->count; i++) {
         double *const p = samples->points + 3 * i;
-        crease_frame_enter(frame, samples->source + 3 * number_of(samples, i), 1, p);
+        crease_frame_enter(frame, samples->source + 3 * crease_samples_number(samples, i), 1, p);
         for (size_t c = 0; c < 2; c++) {
             samples->uv[2 * i + c] = p[c];
             if (samples->prior[i] > 0.0) {

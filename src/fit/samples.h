@@ -30,6 +30,8 @@ typedef struct crease_samples {
 crease_status crease_samples_create(crease_context *context, const double *points,
     const double *keep, size_t count, size_t step, double spacing, double epsilon,
     crease_samples *out);
+/* Number of the point that is sample i. */
+size_t crease_samples_number(const crease_samples *samples, size_t i);
 void crease_samples_free(crease_samples *samples);
 /* Puts the points into the frame, their feet straight below them. low, high: the box of the points
  * kept, x and y. */

@@ -22,6 +22,7 @@ void crease_sheet_free(crease_sheet *sheet)
     free(sheet->projected);
     free(sheet->deviations);
     free(sheet->variance);
+    free(sheet->errors);
     free(sheet);
 }
 
@@ -69,6 +70,11 @@ const double *crease_sheet_deviations(const crease_sheet *sheet)
 const double *crease_sheet_variance(const crease_sheet *sheet)
 {
     return sheet->variance;
+}
+
+const double *crease_sheet_standard_errors(const crease_sheet *sheet)
+{
+    return sheet->errors;
 }
 
 double crease_sheet_bend(const crease_surface *surface, int direction, const double uv[2])

@@ -19,6 +19,7 @@ struct crease_sheet {
     double *projected;  /* point_count x 3 */
     double *deviations; /* point_count */
     double *variance;   /* point_count or NULL */
+    double *errors;     /* point_count or NULL: standard errors */
 };
 
 /* Angle in degrees by which the surface bends at a place on a line of constant parameter: 0 smooth.

@@ -357,6 +357,33 @@ static void given_no_memory_then_fitting_fails_cleanly(void **state)
     crease_context_free(context);
 }
 
+/* Roofs of any steepness whose crease runs any way. */
+static void given_a_roof_without_noise_then_it_is_exact_at_any_angle(void **state)
+{
+    enum { COUNT = 600, ROOFS = 9 };
+    static double points[COUNT][3];
+    crease_context *context = given_context();
+    for (int roof = 0; roof < ROOFS; roof++) {
+        const double half = (15.0 + 135.0 * roof / (ROOFS - 1)) * 0.008726646259971648;
+        const double turn = 0.37 * roof;
+        for (uint64_t i = 0; i < COUNT; i++) {
+            const double across = (crease_random_uniform(9, 0, i) - 0.5) * sin(half);
+            const double along = crease_random_uniform(9, 1, i) - 0.5;
+            points[i][0] = cos(turn) * across - sin(turn) * along;
+            points[i][1] = sin(turn) * across + cos(turn) * along;
+            points[i][2] = -fabs(across) / tan(half);
+        }
+        crease_cloud *cloud = given_cloud(context, points[0], COUNT);
+        crease_sheet *sheet = when_fitted(context, cloud, NULL);
+        assert_int_equal(crease_sheet_line_count(sheet), 1);
+        assert_near(crease_sheet_line(sheet, 0).angle, 2 * half * 57.29577951308232, 1e-6);
+        assert_true(largest_deviation(sheet) < 1e-9);
+        crease_sheet_free(sheet);
+        crease_cloud_free(cloud);
+    }
+    crease_context_free(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -372,6 +399,7 @@ int main(void)
         cmocka_unit_test(given_any_number_of_threads_then_the_same_bytes),
         cmocka_unit_test(given_senseless_options_or_points_then_an_error_says_what_to_give),
         cmocka_unit_test(given_no_memory_then_fitting_fails_cleanly),
+        cmocka_unit_test(given_a_roof_without_noise_then_it_is_exact_at_any_angle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
