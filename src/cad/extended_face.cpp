@@ -3,7 +3,8 @@
 
 #include "cad/extended_face.hpp"
 
-#include "cad/tube.hpp"
+#include "cad/height_field.hpp"
+#include "model/chart.h"
 
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <ElSLib.hxx>
@@ -212,6 +213,38 @@ static ExtendedFace extend_tube(const Job &job, const Carrier &carrier, double m
     return out;
 }
 
+static ExtendedFace extend_ball(const Job &job, const Carrier &carrier, double margin)
+{
+    Extent extent;
+    double away = 0.0;
+    for (const gp_Pnt &place : carrier.points) {
+        const gp_XYZ at = local(carrier.frame, place);
+        const double there[3] = {at.X(), at.Y(), at.Z()};
+        double uv[2];
+        crease_chart_ball_at(there, uv);
+        extent.add(uv[0], uv[1]);
+        away += at.Modulus() / (double)carrier.points.size();
+    }
+    extent = extent.grown(margin / away);
+    const int count = std::max(LEAST_ROWS, ROWS_PER_SPAN * carrier.spans);
+    TColStd_Array2OfReal distances(1, count, 1, count);
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < count; k++)
+            distances(i + 1, k + 1) = job.height(carrier,
+                extent.low[0] + (extent.high[0] - extent.low[0]) * i / (count - 1),
+                extent.low[1] + (extent.high[1] - extent.low[1]) * k / (count - 1));
+    ExtendedFace out = {};
+    out.frame = carrier.frame;
+    out.ball = true;
+    const Handle(Geom_BSplineSurface) ball = ball_through(distances, extent.low, extent.high);
+    gp_Trsf move;
+    move.SetTransformation(out.frame, gp_Ax3());
+    ball->Transform(move);
+    out.surface = ball;
+    out.face = BRepBuilderAPI_MakeFace(ball, TOLERANCE);
+    return out;
+}
+
 /* A cap around the mean direction of the points, or all of the sphere. */
 static ExtendedFace extend_sphere(const Carrier &carrier, double margin)
 {
@@ -290,6 +323,8 @@ ExtendedFace extend(const Job &job, const Carrier &carrier, double margin)
     default:
         if (carrier.round)
             return extend_tube(job, carrier, margin);
+        if (carrier.ball)
+            return extend_ball(job, carrier, margin);
         return extend_freeform(job, carrier, margin);
     }
 }
@@ -308,6 +343,13 @@ gp_Pnt2d foot(const ExtendedFace &extended, const gp_Pnt &place)
         ElSLib::Parameters(ball->Sphere(), place, u, v);
     } else if (const auto ring = Handle(Geom_ToroidalSurface)::DownCast(surface); !ring.IsNull()) {
         ElSLib::Parameters(ring->Torus(), place, u, v);
+    } else if (extended.ball) {
+        const gp_XYZ at = local(extended.frame, place);
+        const double there[3] = {at.X(), at.Y(), at.Z()};
+        double uv[2];
+        crease_chart_ball_at(there, uv);
+        u = uv[0];
+        v = uv[1];
     } else if (extended.round) {
         const gp_XYZ at = local(extended.frame, place);
         u = std::atan2(at.Y(), at.X());

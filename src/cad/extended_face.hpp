@@ -18,7 +18,7 @@ struct ExtendedFace {
     TopoDS_Face face;
     Handle(Geom_Surface) surface;
     gp_Ax3 frame;                    /* of a height field, also of one around ... */
-    bool round;                      /* ... the axis of the frame: angle and height */
+    bool round, ball;                /* ... the axis of the frame: angle and height; its centre */
     double origin[2], per_length[2]; /* of a height field: its parameters at the frame's middle, and
                                         what they grow by along x and y */
 };

@@ -72,6 +72,7 @@ void Job::take_carriers()
         to.radius = from.radius * factor;
         to.shape = from.type == CREASE_REGION_TORUS ? from.shape * factor : from.shape;
         to.round = from.round;
+        to.ball = from.ball;
         to.spans = from.spans;
         to.region = from.region;
         to.number = (uint32_t)i;
@@ -109,8 +110,9 @@ double Job::distance(const Carrier &carrier, const gp_Pnt &place) const
 
 double Job::height(const Carrier &carrier, double x, double y) const
 {
-    const double along = carrier.round ? x : x / factor;
-    return crease_carriers_height(found.get(), carrier.number, along, y / factor) * factor;
+    const double u = carrier.round || carrier.ball ? x : x / factor;
+    const double v = carrier.ball ? y : y / factor;
+    return crease_carriers_height(found.get(), carrier.number, u, v) * factor;
 }
 
 double Job::area_of_point(size_t index) const

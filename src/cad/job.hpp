@@ -29,7 +29,7 @@ struct Carrier {
     crease_region_type type;
     gp_Ax3 frame; /* see crease_carrier */
     double radius, shape;
-    bool round;
+    bool round, ball;
     int spans;
     uint32_t region, number; /* number: in Job::carriers, and of the crease_carrier */
     std::vector<gp_Pnt> points;
@@ -47,7 +47,7 @@ class Job
     /* Signed distance of a place from a carrier's surface. */
     double distance(const Carrier &carrier, const gp_Pnt &place) const;
     /* Height of a free form over the plane of its frame; of a round one, its distance from the axis
-     * at the angle x and the height y. */
+     * at the angle x and the height y; of a ball, that from its centre. */
     double height(const Carrier &carrier, double x, double y) const;
     /* Area that a point of the cloud stands for, in the cloud's unit. */
     double area_of_point(size_t index) const;

@@ -3,7 +3,7 @@
 
 #include "cad/sheet.hpp"
 
-#include "cad/tube.hpp"
+#include "cad/height_field.hpp"
 
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_ConicalSurface.hxx>
@@ -67,7 +67,7 @@ void Sheet::interpolate(const crease_chart &from, double factor)
 {
     const int side = (int)from.side, rows = from.round ? side - 1 : side;
     TColStd_Array2OfReal heights(1, rows, 1, side);
-    for (int d = from.round ? 1 : 0; d < 2; d++) {
+    for (int d = from.round ? 1 : 0; d < 2 && !from.ball; d++) {
         chart.low[d] *= factor;
         chart.high[d] *= factor;
     }
@@ -76,7 +76,8 @@ void Sheet::interpolate(const crease_chart &from, double factor)
             heights(i + 1, k + 1) = factor * from.heights[i * side + k];
     const Handle(Geom_BSplineSurface) result = from.round
         ? tube_through(heights, chart.low[1], chart.high[1])
-        : surface_through(heights, chart.low, chart.high);
+        : from.ball ? ball_through(heights, chart.low, chart.high)
+                    : surface_through(heights, chart.low, chart.high);
     gp_Trsf to_place;
     to_place.SetTransformation(frame(), gp_Ax3(gp::XOY()));
     result->Transform(to_place);

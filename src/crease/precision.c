@@ -4,6 +4,7 @@
 #include "crease/precision.h"
 
 #include "base/vector.h"
+#include "segment/patch.h"
 
 #include <math.h>
 
@@ -16,7 +17,11 @@ static double tilt_variance(
     if (model->type == CREASE_REGION_FREEFORM) {
         const crease_patch *const patch = &model->patch;
         const double length = patch->high[1] - patch->low[1];
-        const double width = patch->round ? length : fmin(patch->high[0] - patch->low[0], length);
+        double slope[2], width = fmin(patch->high[0] - patch->low[0], length);
+        if (patch->round)
+            width = length;
+        if (patch->ball)
+            width *= crease_patch_at(patch, 0.0, 0.0, slope);
         return width > 0.0 ? 4.0 * crease_model_variance(model, place) / (width * width) : 0.0;
     }
     double before[3], after[3];

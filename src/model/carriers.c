@@ -279,6 +279,7 @@ crease_carrier crease_carriers_at(const crease_carriers *carriers, size_t index)
         .region = carriers->largest[index]};
     memcpy(carrier.centre, model->centre, sizeof carrier.centre);
     memcpy(carrier.axes, model->axes, sizeof carrier.axes);
+    carrier.ball = model->type == CREASE_REGION_FREEFORM && model->patch.ball;
     carrier.round = model->type == CREASE_REGION_FREEFORM && model->patch.round;
     if (model->type == CREASE_REGION_FREEFORM)
         carrier.spans = model->patch.spline ? model->patch.spans : POLYNOMIAL_SPANS;

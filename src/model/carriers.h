@@ -25,7 +25,8 @@ typedef struct crease_carrier {
     double centre[3], axes[9];
     double radius;   /* sphere, cylinder, cone at the centre, circle of a torus */
     double shape;    /* cone: growth of the radius along z; torus: radius of the tube */
-    bool round;      /* free form: about its z axis */
+    bool round;      /* free form: about its z axis, ... */
+    bool ball;       /* ... or its centre: x and y are a stereographic projection */
     int spans;       /* free form: pieces of the height along either direction */
     uint32_t region; /* the largest of its regions */
 } crease_carrier;
@@ -44,7 +45,7 @@ CREASE_API const double *crease_carriers_areas(const crease_carriers *carriers);
 CREASE_API double crease_carriers_distance(
     const crease_carriers *carriers, size_t index, const double place[3], double gradient[3]);
 /* Of a free form: the height over a place of its frame's plane, inside and outside its points; of a
- * round one the distance from its axis at an angle and a height. */
+ * round one the distance from its axis at an angle and a height, of a ball that from its centre. */
 CREASE_API double crease_carriers_height(
     const crease_carriers *carriers, size_t index, double x, double y);
 

@@ -4,6 +4,7 @@
 #include "model/chart.h"
 
 #include "base/vector.h"
+#include "segment/base.h"
 
 #include <math.h>
 
@@ -45,9 +46,23 @@ void crease_chart_at(const crease_chart *chart, const double place[3], double uv
         uv[1] = crease_chart_near(atan2(z, away - chart->radius), chart->middle);
         break;
     default:
+        if (chart->ball) {
+            crease_ball_project((double[]){x, y, z}, uv);
+            break;
+        }
         uv[0] = chart->round ? uv[0] : x;
         uv[1] = chart->round ? z : y;
     }
+}
+
+void crease_chart_ball_direction(const double uv[2], double out[3])
+{
+    crease_ball_direction(uv, out);
+}
+
+void crease_chart_ball_at(const double vector[3], double uv[2])
+{
+    crease_ball_project(vector, uv);
 }
 
 void crease_chart_along(const crease_chart *chart, const double *places, size_t count, double *uv)

@@ -15,9 +15,10 @@
 
 enum { LEAST_HEIGHTS = 48, HEIGHTS_PER_SPAN = 3 };
 
-static const double CAP_COSINE = 0.26; /* of the angle from the middle up to which a face of a
-                                          sphere is a patch that no pole is near */
-static const double MARGIN = 3.0;      /* spacings around a free form */
+static const double CAP_COSINE = 0.26;  /* of the angle from the middle up to which a face of a
+                                           sphere is a patch that no pole is near */
+static const double MARGIN = 3.0;       /* spacings around a free form */
+static const double BALL_MARGIN = 0.05; /* of its width around a free form about a centre */
 static const double TURN = 6.283185307179586476925;
 
 /* ------------------------------------------------------------------------------- frames -- */
@@ -28,6 +29,7 @@ static crease_chart chart_of(const crease_model *model)
     crease_chart chart = {.type = model->type,
         .radius = model->radius,
         .round = model->type == CREASE_REGION_FREEFORM && model->patch.round,
+        .ball = model->type == CREASE_REGION_FREEFORM && model->patch.ball,
         .shape = model->type == CREASE_REGION_CONE ? fabs(model->shape) : model->shape};
     const double up = model->type == CREASE_REGION_CONE && model->shape < 0.0 ? -1.0 : 1.0;
     for (int c = 0; c < 3; c++) {
@@ -192,9 +194,10 @@ static void find_rectangle(const crease_graph *graph, uint32_t region, crease_ch
     for (size_t e = 0; e < t->edge_count; e++)
         for (size_t i = 0; i < t->edges[e].count && crease_edge_has(&t->edges[e], region); i++)
             extend(chart, t->edges[e].points + 3 * i);
+    const double margin = MARGIN * graph->survey->spacing;
     for (int d = 0; d < 2; d++) {
-        chart->low[d] -= MARGIN * graph->survey->spacing;
-        chart->high[d] += MARGIN * graph->survey->spacing;
+        chart->low[d] -= chart->ball ? BALL_MARGIN * (chart->high[d] - chart->low[d]) : margin;
+        chart->high[d] += chart->ball ? BALL_MARGIN * (chart->high[d] - chart->low[d]) : margin;
     }
     if (chart->round) {
         chart->low[0] = 0.0;

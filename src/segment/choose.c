@@ -254,25 +254,27 @@ static void try_solids(choice *at)
 }
 
 /* Splines from few spans upwards, around those of the warm model, until they no longer pay: over a
- * plane, or around an axis. */
-static void try_splines(choice *at, bool round)
+ * plane, around an axis or around a centre. */
+typedef bool fit_spline(
+    crease_fitter *fitter, const crease_sample *sample, int spans, crease_model *model);
+
+static void try_splines(choice *at, fit_spline *fit, int least)
 {
     crease_fitter *const fitter = at->fitter;
     const bool warm =
         at->warm && at->warm->type == CREASE_REGION_FREEFORM && at->warm->patch.spline;
-    const int low = warm && at->warm->patch.spans > 4 ? at->warm->patch.spans - 2 : 3 + round;
+    const int low = warm && at->warm->patch.spans > 4 ? at->warm->patch.spans - 2 : least;
     const int wanted = warm ? at->warm->patch.spans + 4 : 6;
     const int high = wanted < CREASE_PATCH_SPANS ? wanted : CREASE_PATCH_SPANS;
     const double count = (double)at->sample->count;
     for (int spans = low; spans <= high; spans += spans < 4 ? 1 : 2) {
-        const double coefficients = (round ? spans : spans + 3) * (spans + 3);
+        const double coefficients = (fit == crease_fit_tube ? spans : spans + 3) * (spans + 3);
         const double chi = fitter->best.chi;
-        const crease_model least = {
+        const crease_model fewest = {
             .type = CREASE_REGION_FREEFORM, .parameter_count = least_support * coefficients};
         const bool exact = chi * count < 0.5 * count + 2.0 * at->log_count && chi < 0.2;
-        if (exact || 3.0 * coefficients >= count || surcharge(at, &least) >= allowed(at) ||
-            !(round ? crease_fit_tube(fitter, at->sample, spans, &fitter->trial)
-                    : crease_fit_spline(fitter, at->sample, spans, &fitter->trial)))
+        if (exact || 3.0 * coefficients >= count || surcharge(at, &fewest) >= allowed(at) ||
+            !fit(fitter, at->sample, spans, &fitter->trial))
             break;
         compare(at);
         const crease_model *const best = &fitter->best;
@@ -280,6 +282,12 @@ static void try_splines(choice *at, bool round)
         if (spline ? best->patch.spans < spans - 2 : spans > 4 && best->chi < 1.3)
             break;
     }
+}
+
+static void try_distances(choice *at)
+{
+    try_splines(at, crease_fit_tube, 4);
+    try_splines(at, crease_fit_ball, 3);
 }
 
 static bool finish(choice *at)
@@ -311,10 +319,10 @@ bool crease_fit_choose(crease_fitter *fitter, const crease_sample *sample, creas
         if (level >= CREASE_LEVEL_SOLIDS)
             try_solids(&at);
         if (level >= CREASE_LEVEL_ALL && rule != CREASE_RULE_GROWING)
-            try_splines(&at, false);
+            try_splines(&at, crease_fit_spline, 3);
         if (level >= CREASE_LEVEL_ALL && !at.has_quadratic &&
-            (rule == CREASE_RULE_AKAIKE || (warm && warm->patch.round)))
-            try_splines(&at, true);
+            (rule == CREASE_RULE_AKAIKE || (warm && (warm->patch.round || warm->patch.ball))))
+            try_distances(&at);
     }
     return finish(&at);
 }

@@ -42,6 +42,9 @@ bool crease_fit_spline(
 /* A round height field, about an axis that the points surround; at least 4 spans. */
 bool crease_fit_tube(
     crease_fitter *fitter, const crease_sample *sample, int spans, crease_model *model);
+/* The same about a centre. */
+bool crease_fit_ball(
+    crease_fitter *fitter, const crease_sample *sample, int spans, crease_model *model);
 
 /* Rough models, from normals and linear least squares. */
 bool crease_guess_sphere(const crease_sample *sample, crease_model *model);
@@ -84,8 +87,9 @@ static const double CREASE_COST_CUT = 9.0;
 /* What so many points can decide between. */
 crease_fit_level crease_fit_level_for(size_t count);
 /* Makes fitter->best the cheapest model of the sample that the level allows, in the cloud's
- * coordinates; warm, a model to begin with, may be NULL. Dearer models than the limit need not be
- * found. False when there is none. */
+ * coordinates; warm, a model to begin with, may be NULL. Distances from an axis or a centre are
+ * tried where no height over a plane will do, by CREASE_RULE_AKAIKE or when warm is one. Dearer
+ * models than the limit need not be found. False when there is none. */
 bool crease_fit_choose(crease_fitter *fitter, const crease_sample *sample, crease_fit_rule rule,
     crease_fit_level level, const crease_model *warm, double limit);
 /* The same with one kind only; free form means a polynomial of degree 2. */

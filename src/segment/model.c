@@ -5,6 +5,7 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
+#include "segment/base.h"
 #include "segment/patch.h"
 #include "segment/primitive.h"
 
@@ -47,11 +48,38 @@ static double round_distance(const crease_model *model, const double place[3], d
     return cosine * (away - height);
 }
 
+/* Distance away from the centre times the cosine of the slope. */
+static double ball_distance(const crease_model *model, const double place[3], double gradient[3])
+{
+    double d[3], local[3], at[2], slope[2], n[3];
+    for (int c = 0; c < 3; c++)
+        d[c] = place[c] - model->centre[c];
+    for (int c = 0; c < 3; c++)
+        local[c] = crease_vector_dot(d, model->axes + 3 * (size_t)c);
+    crease_ball_project(local, at);
+    crease_ball_direction(at, n);
+    const double away = crease_vector_length(d), scale = crease_ball_scale(at);
+    const double height = crease_patch_at(&model->patch, at[0], at[1], slope);
+    const double rise = 1.0 / (scale * fmax(away, NEAR_AXIS * fabs(height)));
+    const double u = rise * slope[0], v = rise * slope[1];
+    const double cosine = 1.0 / sqrt(1.0 + u * u + v * v);
+    /* Unit vectors along the projection's x and y. */
+    const double half = 0.5 * scale * (at[0] * u + at[1] * v);
+    n[0] -= u - at[0] * half;
+    n[1] -= v - at[1] * half;
+    n[2] += scale * (at[0] * u + at[1] * v);
+    for (int c = 0; c < 3; c++)
+        gradient[c] = cosine *
+            (n[0] * model->axes[c] + n[1] * model->axes[3 + c] + n[2] * model->axes[6 + c]);
+    return cosine * (away - height);
+}
+
 double crease_model_distance(const crease_model *model, const double place[3], double gradient[3])
 {
     if (model->type != CREASE_REGION_FREEFORM)
         return crease_primitive_distance(model, place, gradient);
     return model->patch.round ? round_distance(model, place, gradient)
+        : model->patch.ball   ? ball_distance(model, place, gradient)
                               : height_distance(model, place, gradient);
 }
 

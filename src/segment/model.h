@@ -12,11 +12,12 @@
 #include <stdint.h>
 
 /* A height z = f(x, y) over the frame of its model, by the coefficients of a polynomial or of a
- * uniform bicubic B-spline with spans x spans cells. Beyond low..high it goes on linearly. Or, of a
- * round one, a distance f(angle, z) from the frame's z axis: always a spline, periodic in the angle
- * about that axis. */
+ * uniform bicubic B-spline with spans x spans cells. Beyond low..high it goes on linearly. Or, a
+ * spline, a distance: of a round one f(angle, z) from the frame's z axis, periodic in the angle
+ * about it; of a ball f(x, y) from its origin, the direction by its stereographic projection
+ * (base.h). */
 typedef struct crease_patch {
-    bool spline, round;
+    bool spline, round, ball;
     int degree;             /* of the polynomial, 2..4 */
     int spans;              /* of the spline, 3..24 in both directions */
     double low[2], high[2]; /* the rectangle of the data */

@@ -8,9 +8,9 @@
 
 #include "base/symmetric.h"
 #include "base/vector.h"
+#include "segment/base.h"
 #include "segment/patch.h"
 #include "segment/primitive.h"
-#include "segment/tube.h"
 
 #include <math.h>
 #include <string.h>
@@ -111,6 +111,28 @@ static void enter_tube(crease_fitter *fitter, const crease_sample *sample, creas
     patch->high[1] = high + beyond;
 }
 
+/* The projection of the points' directions, and their distances from the centre. */
+static void enter_ball(crease_fitter *fitter, const crease_sample *sample, crease_model *model)
+{
+    crease_patch *const patch = &model->patch;
+    enter_frame(fitter, sample, model);
+    for (int k = 0; k < 2; k++) {
+        patch->low[k] = INFINITY;
+        patch->high[k] = -INFINITY;
+    }
+    for (size_t i = 0; i < sample->count; i++) {
+        double *const local = fitter->local + 3 * i, at[2];
+        const double distance = crease_vector_length(local);
+        crease_ball_project(local, at);
+        for (int k = 0; k < 2; k++) {
+            patch->low[k] = fmin(patch->low[k], at[k]);
+            patch->high[k] = fmax(patch->high[k], at[k]);
+            local[k] = at[k];
+        }
+        local[2] = distance;
+    }
+}
+
 /* Half-width of the band of the normal equations. */
 static size_t band_of(const crease_patch *patch)
 {
@@ -187,6 +209,21 @@ static bool solve(crease_fitter *fitter, const crease_patch *patch)
     return true;
 }
 
+/* Squared cosine of the angle between the surface at a point and what it is a height over. */
+static double squared_cosine(
+    const crease_patch *patch, const double local[3], const double slope[2], double least)
+{
+    double across = slope[0], up = slope[1];
+    const double away = fmax(local[2], least);
+    if (patch->round)
+        across /= away;
+    if (patch->ball) {
+        across /= crease_ball_scale(local) * away;
+        up /= crease_ball_scale(local) * away;
+    }
+    return 1.0 / (1.0 + across * across + up * up);
+}
+
 static void reweight(crease_fitter *fitter, size_t count, const crease_patch *patch)
 {
     double slope[2];
@@ -194,8 +231,7 @@ static void reweight(crease_fitter *fitter, size_t count, const crease_patch *pa
     for (size_t i = 0; i < count; i++) {
         const double *const local = fitter->local + 3 * i;
         const double value = crease_patch_at(patch, local[0], local[1], slope);
-        const double across = patch->round ? slope[0] / fmax(local[2], least) : slope[0];
-        const double cosine2 = 1.0 / (1.0 + across * across + slope[1] * slope[1]);
+        const double cosine2 = squared_cosine(patch, local, slope, least);
         fitter->residuals[0][i] = (local[2] - value) * sqrt(cosine2);
         fitter->weights[i] = cosine2;
     }
@@ -245,24 +281,46 @@ bool crease_fit_polynomial(
     return fit(fitter, sample, model);
 }
 
+/* Fits distances over a base whose rectangle of data is known. */
+static bool fit_distances(
+    crease_fitter *fitter, const crease_sample *sample, int spans, crease_model *model)
+{
+    crease_patch *const patch = &model->patch;
+    if (!(patch->high[0] > patch->low[0] && patch->high[1] > patch->low[1]))
+        return false;
+    patch->spline = true;
+    patch->spans = spans;
+    const size_t side = crease_patch_side(patch);
+    patch->coefficient_count = (patch->round ? (size_t)spans : side) * side;
+    for (int k = 0; k < 2; k++)
+        patch->unit[k] = (patch->high[k] - patch->low[k]) / spans;
+    return fit(fitter, sample, model);
+}
+
 bool crease_fit_tube(
     crease_fitter *fitter, const crease_sample *sample, int spans, crease_model *model)
 {
     double *const coefficients = model->patch.coefficients;
     *model = (crease_model){.type = CREASE_REGION_FREEFORM};
-    crease_patch *const patch = &model->patch;
-    patch->coefficients = coefficients;
+    model->patch.coefficients = coefficients;
     if (spans < LEAST_AROUND || !crease_tube_frame(sample, model))
         return false;
+    model->patch.round = true;
     enter_tube(fitter, sample, model);
-    if (!(patch->high[1] > patch->low[1]))
+    return fit_distances(fitter, sample, spans, model);
+}
+
+bool crease_fit_ball(
+    crease_fitter *fitter, const crease_sample *sample, int spans, crease_model *model)
+{
+    double *const coefficients = model->patch.coefficients;
+    *model = (crease_model){.type = CREASE_REGION_FREEFORM};
+    model->patch.coefficients = coefficients;
+    if (!crease_ball_frame(sample, model))
         return false;
-    patch->spline = patch->round = true;
-    patch->spans = spans;
-    patch->coefficient_count = (size_t)spans * crease_patch_side(patch);
-    for (int k = 0; k < 2; k++)
-        patch->unit[k] = (patch->high[k] - patch->low[k]) / spans;
-    return fit(fitter, sample, model);
+    model->patch.ball = true;
+    enter_ball(fitter, sample, model);
+    return fit_distances(fitter, sample, spans, model);
 }
 
 bool crease_fit_spline(

@@ -5,7 +5,7 @@
  * Points next to other regions are left out where there are enough others: their labels were chosen
  * by their distances, so they bend a surface towards where it is already. Those too far from the
  * other regions' surfaces to be of them stay: without them a free form swings at its border. Tubes
- * are fitted to all: a spline of many spans would be free there. */
+ * and balls are fitted to all: a spline of many spans would be free there. */
 #include "segment/segmentation.h"
 
 #include "base/memory.h"
@@ -79,8 +79,8 @@ static void sample_region(const refitting *run, size_t region, crease_sample *sa
     double side[3];
     for (size_t m = begin; m < end; m++)
         inside += run->interior[seg->members[m]];
-    const bool all =
-        2 * inside < size || inside < LEAST_INTERIOR || seg->models[region].patch.round;
+    const crease_patch *const patch = &seg->models[region].patch;
+    const bool all = 2 * inside < size || inside < LEAST_INTERIOR || patch->round || patch->ball;
     const size_t count = all ? size : inside, taken = count < run->sample ? count : run->sample;
     sample->count = 0;
     for (size_t m = begin; m < end && sample->count < taken; m++) {

@@ -117,14 +117,14 @@ static bool is_form(const crease_segmentation *seg, size_t region)
     return seg->models[region].type == CREASE_REGION_FREEFORM;
 }
 
-/* Free forms, and small or flat pieces of anything else but large planes. */
+/* Free forms, and small pieces of anything else that hardly turn. */
 static bool is_vague(const crease_segmentation *seg, size_t region)
 {
     if (is_form(seg, region))
         return true;
     if (seg->models[region].type == CREASE_REGION_PLANE)
         return crease_segmentation_size(seg, region) < SMALL;
-    return is_flat(seg, region);
+    return crease_segmentation_size(seg, region) < FEW && is_flat(seg, region);
 }
 
 static bool may_unite(const struct uniting *run, size_t a, size_t b)
@@ -138,9 +138,7 @@ static bool may_unite(const struct uniting *run, size_t a, size_t b)
     const double smooth = is_form(seg, a) && is_form(seg, b) ? FORMS_SMOOTH : SMOOTH;
     if (border->links < LEAST_LINKS || border->parallel < smooth * border->links)
         return false;
-    return is_form(seg, a) || is_form(seg, b) ||
-        (crease_segmentation_size(seg, a) < FEW && crease_segmentation_size(seg, b) < FEW &&
-            is_vague(seg, a) && is_vague(seg, b));
+    return is_form(seg, a) || is_form(seg, b) || (is_vague(seg, a) && is_vague(seg, b));
 }
 
 /* The smoothest border that may be opened; NULL when there is none. */
@@ -248,6 +246,17 @@ static bool fit_both(struct uniting *run, const struct pair *pair, int spans, bo
         is_close(run, pair, &fitter->best) && (vague || is_shorter(run, pair, &fitter->best));
 }
 
+/* The same with few spans, for two vague regions. */
+static bool fit_simply(struct uniting *run)
+{
+    crease_fitter *const fitter = &run->seg->fitters[0];
+    const crease_sample *const both = &fitter->sample;
+    run->trials++;
+    return crease_fit_choose(fitter, both, CREASE_RULE_AKAIKE, crease_fit_level_for(both->count),
+               NULL, INFINITY) &&
+        fitter->best.chi < 1.0 + 3.0 * sqrt(2.0 / (double)both->count);
+}
+
 static bool try_pair(struct uniting *run, struct pair *pair)
 {
     const crease_segmentation *const seg = run->seg;
@@ -259,7 +268,8 @@ static bool try_pair(struct uniting *run, struct pair *pair)
     for (int i = 0; i < 2; i++)
         pair->sizes[i] = crease_segmentation_size(seg, pair->regions[i]);
     take_sample(run, pair);
-    return fit_both(run, pair, more + MORE_SPANS, vague) ||
+    return (vague && !run->wide && fit_simply(run)) ||
+        fit_both(run, pair, more + MORE_SPANS, vague) ||
         fit_both(run, pair, spans[0] + spans[1] + MORE_SPANS, vague);
 }
 

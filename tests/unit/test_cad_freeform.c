@@ -98,29 +98,28 @@ static void end(scene *s)
     crease_context_free(s->context);
 }
 
-static void then_a_solid_of_three_faces(scene *s)
+static void then_a_solid(scene *s, size_t faces, double volume)
 {
     crease_cad_info info;
-    const double volume = volume_of_vase(UP * S);
     if (crease_part_build(s->context, s->cloud, s->regions, NULL, NULL, &s->part) != CREASE_OK)
         fail_msg("%s", crease_context_message(s->context));
     if (crease_part_state_of(s->part) != CREASE_PART_SOLID)
         fail_msg("%s", crease_part_message(s->part));
-    assert_int_equal(crease_part_face_count(s->part), 3);
+    assert_int_equal(crease_part_face_count(s->part), faces);
     assert_near(crease_part_volume(s->part), volume, 1e-3 * volume);
     assert_int_equal(crease_part_write(s->context, s->part, in_folder("vase.step")), CREASE_OK);
     assert_int_equal(crease_cad_info_read(s->context, in_folder("vase.step"), &info), CREASE_OK);
     assert_true(info.valid);
     assert_int_equal(info.closed_shells, 1);
     assert_int_equal(info.free_edges, 0);
-    assert_int_equal(info.faces, 3);
+    assert_int_equal(info.faces, faces);
 }
 
 /* Two rims and a seam. */
 static void given_a_vase_then_its_wall_is_one_face(void **state)
 {
     scene s = when_divided(given_vase(1, 0));
-    then_a_solid_of_three_faces(&s);
+    then_a_solid(&s, 3, volume_of_vase(UP * S));
     end(&s);
 }
 
@@ -129,6 +128,25 @@ static void given_a_noisy_vase_then_its_wall_is_one_region(void **state)
     scene s = when_divided(given_vase(1, 0.25 * S));
     assert_int_equal(crease_regions_count(s.regions), 3);
     assert_int_equal(crease_regions_at(s.regions, 0).type, CREASE_REGION_FREEFORM);
+    end(&s);
+}
+
+/* Half an ellipsoid: no height over a plane, and no axis to run round. */
+static void given_a_dome_then_two_faces(void **state)
+{
+    const double pi = acos(-1.0), axes[3] = {0.6, 0.4, 0.35};
+    vase v = {.points = malloc(AROUND * AROUND * sizeof *v.points)};
+    for (int i = 0; i < 4000; i++) {
+        const double u = 2 * pi * draw(&v, 1), z = draw(&v, 2), r = sqrt(1 - z * z);
+        add(&v, (double[]){axes[0] * r * cos(u), axes[1] * r * sin(u), axes[2] * z},
+            (double[]){0, 0, 1});
+    }
+    for (int i = 0; i < 2400; i++) {
+        const double u = 2 * pi * draw(&v, 1), r = sqrt(draw(&v, 2));
+        add(&v, (double[]){axes[0] * r * cos(u), axes[1] * r * sin(u), 0}, (double[]){0, 0, 1});
+    }
+    scene s = when_divided(v);
+    then_a_solid(&s, 2, 2 * pi / 3 * axes[0] * axes[1] * axes[2]);
     end(&s);
 }
 
@@ -147,6 +165,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(given_a_vase_then_its_wall_is_one_face),
         cmocka_unit_test(given_a_noisy_vase_then_its_wall_is_one_region),
+        cmocka_unit_test(given_a_dome_then_two_faces),
         cmocka_unit_test(given_most_of_a_wall_then_one_free_form),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -584,6 +584,59 @@ static void tubes_are_heights_about_their_axis(void **state)
     end(&bench);
 }
 
+/* Most of an ellipsoid, in the frame of given_model. */
+static void balls_are_distances_from_their_centre(void **state)
+{
+    struct bench bench = given_fitter(0.002);
+    crease_fitter *const fitter = &bench.fitters[0];
+    crease_sample *const sample = &fitter->sample;
+    const crease_model frame = given_model(CREASE_REGION_SPHERE);
+    const double axes[3] = {0.6, 0.5, 0.4};
+    memcpy(sample->origin, frame.centre, sizeof sample->origin);
+    sample->count = 4000;
+    for (size_t i = 0; i < sample->count; i++) {
+        const double u = 6.283185307179586 * crease_random_uniform(8, 1, i);
+        const double z = 1.5 * crease_random_uniform(8, 2, i) - 0.5, r = sqrt(1 - z * z);
+        const double on[3] = {r * cos(u), r * sin(u), z};
+        double normal[3];
+        for (int c = 0; c < 3; c++)
+            normal[c] = on[c] / axes[c];
+        crease_vector_normalise(normal);
+        const double off = 0.002 * crease_random_normal(8, 3, i);
+        for (size_t c = 0; c < 3; c++) {
+            sample->points[3 * i + c] = sample->normals[3 * i + c] = 0.0;
+            for (size_t k = 0; k < 3; k++) {
+                sample->points[3 * i + c] +=
+                    (on[k] * axes[k] + off * normal[k]) * frame.axes[3 * k + c];
+                sample->normals[3 * i + c] += normal[k] * frame.axes[3 * k + c];
+            }
+        }
+    }
+    fitter->trial.patch.coefficients = fitter->coefficients[0];
+    assert_false(crease_fit_spline(fitter, sample, 6, &fitter->trial));
+    assert_true(crease_fit_ball(fitter, sample, 6, &fitter->trial));
+    const crease_model *const ball = &fitter->trial;
+    for (size_t i = 0; i < 40; i++) {
+        const double *const place = sample->points + 300 * i;
+        double gradient[3], to[3], there[3];
+        const double from = crease_model_distance(ball, place, gradient);
+        assert_true(fabs(from) < 0.012);
+        assert_near(crease_vector_length(gradient), 1, 1e-12);
+        assert_true(crease_vector_dot(gradient, sample->normals + 300 * i) > 0.99);
+        for (int c = 0; c < 3; c++)
+            to[c] = place[c] + 1e-4 * gradient[c];
+        assert_near(crease_model_distance(ball, to, there) - from, 1e-4, 2e-6);
+    }
+    for (size_t i = 0; i < 3 * sample->count; i += 3) /* all around: no gap for the projection */
+        for (size_t c = 0; c < 3; c++) {
+            const double sign = i % 2 ? -1.0 : 1.0;
+            sample->points[i + c] *= sign;
+            sample->normals[i + c] *= sign;
+        }
+    assert_false(crease_fit_ball(fitter, sample, 6, &fitter->trial));
+    end(&bench);
+}
+
 static void sheets_are_no_tubes(void **state)
 {
     struct bench bench = given_fitter(0.005);
@@ -646,6 +699,7 @@ int main(void)
         cmocka_unit_test(heights_of_degree_two_are_exact_and_go_on),
         cmocka_unit_test(free_forms_are_followed_to_the_noise),
         cmocka_unit_test(tubes_are_heights_about_their_axis),
+        cmocka_unit_test(balls_are_distances_from_their_centre),
         cmocka_unit_test(sheets_are_no_tubes),
         cmocka_unit_test(bases_have_the_slopes_of_their_values),
     };

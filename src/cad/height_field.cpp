@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* Around an axis, x and y are interpolated over the same grid as if they were heights, some rows
+/* What is not over a plane is interpolated coordinate by coordinate. Around an axis x and y are
+ * interpolated over the same grid as if they were heights, some rows
  * more than a turn: what the ends of the grid do to the interpolant fades by a factor of almost 4
  * from row to row. */
-#include "cad/tube.hpp"
+#include "cad/height_field.hpp"
 
 #include "cad/kernel.hpp"
+#include "model/chart.h"
 
 #include <GeomAPI_PointsToBSplineSurface.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -76,6 +78,30 @@ Handle(Geom_BSplineSurface)
     for (int k = 1; k <= out->NbVPoles(); k++)
         out->SetPole(out->NbUPoles(), k, out->Pole(1, k));
     return out;
+}
+
+Handle(Geom_BSplineSurface)
+    ball_through(const TColStd_Array2OfReal &distances, const double low[2], const double high[2])
+{
+    const int rows = distances.ColLength(), columns = distances.RowLength();
+    Handle(Geom_BSplineSurface) of[3];
+    for (int c = 0; c < 3; c++) {
+        TColStd_Array2OfReal heights(1, rows, 1, columns);
+        for (int i = 0; i < rows; i++)
+            for (int k = 0; k < columns; k++) {
+                const double at[2] = {low[0] + (high[0] - low[0]) * i / (rows - 1),
+                    low[1] + (high[1] - low[1]) * k / (columns - 1)};
+                double direction[3];
+                crease_chart_ball_direction(at, direction);
+                heights(i + 1, k + 1) = direction[c] * distances(i + 1, k + 1);
+            }
+        of[c] = surface_through(heights, low, high);
+    }
+    for (int i = 1; i <= of[0]->NbUPoles(); i++)
+        for (int k = 1; k <= of[0]->NbVPoles(); k++)
+            of[0]->SetPole(
+                i, k, gp_Pnt(of[0]->Pole(i, k).Z(), of[1]->Pole(i, k).Z(), of[2]->Pole(i, k).Z()));
+    return of[0];
 }
 
 } // namespace crease_cad
