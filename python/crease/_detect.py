@@ -17,7 +17,7 @@ from ._cloud import Cloud, Points, as_cloud
 from ._declarations import Detector, RegionType, SnapKind
 from ._facts import Facts, surface_facts
 from ._library import LIBRARY
-from ._memory import Handle, addresses, borrowed, view
+from ._memory import Handle, Held, addresses, borrowed, view
 from ._options import choose, fill
 from ._seen import Layers, Seen
 from ._spline import Curve
