@@ -2,21 +2,16 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /** @file crease.h
- * The whole C interface of libcrease, in the order of the pipeline:
- *
- *   context -> cloud -> neighbours -> noise -> scores -> regions -> splines -> creases -> sheets
- *   -> files and figures
- *
- * Manners, the same everywhere:
+ * The C interface of libcrease, in the order of the pipeline: context, cloud, neighbours, noise,
+ * scores, regions, splines, creases, sheets, files and figures. Trimmed sheets, clouds larger than
+ * memory and CAD models have headers of their own. Manners, the same everywhere:
  *  - A function that can fail returns a crease_status; its result is the last argument and is set
  *    only when CREASE_OK is returned (otherwise it is set to NULL). crease_context_message() then
  *    holds one sentence: what, where, what to do.
  *  - Objects are opaque, never change once made, and are freed by crease_<noun>_free(), which
  *    accepts NULL. Pointers got from an object live as long as the object.
- *  - Where options may be NULL, the defaults are taken: the same ones that
- *    crease_<noun>_options_default() returns.
- *  - Coordinates are doubles, packed x y z; lengths are in the unit of the cloud; angles in
- * degrees.
+ *  - Where options may be NULL, they are what crease_<noun>_options_default() returns.
+ *  - Coordinates are doubles, packed x y z; lengths have the cloud's unit; angles are degrees.
  *  - A context serves one call at a time; inside that call the library uses context threads. The
  *    result never depends on the number of threads: it is the same bytes.
  *  - The library never prints, never exits, never aborts and never touches the locale.
@@ -89,10 +84,9 @@ typedef struct crease_context crease_context;
 typedef struct crease_context_options {
     int threads;   /**< number of threads, 1..1024; 0 = one for each processor */
     uint64_t seed; /**< seed of every random draw */
-    size_t memory; /**< bytes that the whole process may have in memory: what would take more fails
-                        with CREASE_ERROR_NO_MEMORY instead. Of Linux; elsewhere nothing fails.
-                        Small blocks, and those of other libraries, are not refused but counted.
-                        0: no limit */
+    size_t memory; /**< bytes that the whole process may have: on Linux, a large block that would
+                      take more fails with CREASE_ERROR_NO_MEMORY; small ones and those of other
+                        libraries are counted. 0: no limit */
     /** Called now and then during long work, always from the calling thread; fraction is 0..1. */
     void (*progress)(void *user, const char *stage, double fraction);
     /** Asked now and then; non-zero ends the work with CREASE_ERROR_CANCELLED. */
@@ -731,10 +725,10 @@ CREASE_API const double *crease_sheet_deviations(const crease_sheet *sheet);
 /** Bootstrap variance of every data point, or NULL when the method needed none. */
 CREASE_API const double *crease_sheet_variance(const crease_sheet *sheet);
 /** Standard error of the sheet at the foot of every data point, along its normal: from the
- * covariance of the control points, of the places of the lines and of the turn of the frame, with
- * the points' own scatter as their error. NULL where it is not known: sheets with curved creases,
- * nets of more than 4096 control points, the paper's algorithm. Based on: Wahba. Bayesian
- * confidence intervals for the cross-validated smoothing spline. 1983. */
+ * covariance of control points, places of lines and turn of the frame, with the points' scatter.
+ * NULL where not known: curved creases, nets of more than 4096 control points, the paper's
+ * algorithm. Based on: Wahba. Bayesian confidence intervals for the cross-validated smoothing
+ * spline. 1983. */
 CREASE_API const double *crease_sheet_standard_errors(const crease_sheet *sheet);
 /** Splits the sheet at all its crease lines into smooth surfaces, u-major, that share their border
  * control points exactly. *count surfaces; free each and the array with
