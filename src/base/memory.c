@@ -9,6 +9,18 @@
 #include <string.h>
 #include <unistd.h>
 
+/* What a sanitizer takes for itself is not the program's, and far more than that. */
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SANITIZED 1
+#endif
+#endif
+#if defined(SANITIZED) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+static const bool counted = false;
+#else
+static const bool counted = true;
+#endif
+
 /* Blocks below this are not held against the limit, which takes a system call. */
 static const size_t SMALL = 1 << 16;
 
@@ -29,7 +41,7 @@ static size_t resident(void)
 static bool within_limit(const crease_context *context, size_t bytes)
 {
     const size_t most = context->options.memory;
-    return !most || bytes < SMALL || (bytes <= most && resident() <= most - bytes);
+    return !counted || !most || bytes < SMALL || (bytes <= most && resident() <= most - bytes);
 }
 
 /* The size in bytes, or 0 when it overflows or this allocation is to fail. */
