@@ -83,7 +83,7 @@ static crease_status fit(crease_context *context, const settings *s, report *r,
     now.method = chosen->method;
     if (now.method == METHOD_PART || now.method == METHOD_SHELL) {
         const crease_status status =
-            fit_part(context, &now, r, cloud, chosen->doubtful ? &instead : NULL);
+            fit_part(context, &now, r, cloud, chosen->doubtful ? chosen->sheet : NULL, &instead);
         if (status != CREASE_OK || !instead)
             return status;
         now.method = METHOD_SHEET;

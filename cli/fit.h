@@ -18,9 +18,10 @@ enum {
  * has been fitted already, else NULL; it is taken over. */
 crease_status fit_sheet(crease_context *context, const settings *s, report *r,
     const crease_cloud *cloud, crease_sheet *ready);
-/** Builds a part from its smooth regions and writes what is asked for. */
-/** instead: NULL, or where to say that no shell came out of it: then nothing is written. */
+/** Builds a part from its smooth regions and writes what is asked for. rival: NULL, or a sheet that
+ * is taken instead where no shell comes out, or one that most points are further from: then nothing
+ * is written, and *instead is true. */
 crease_status fit_part(crease_context *context, const settings *s, report *r,
-    const crease_cloud *cloud, bool *instead);
+    const crease_cloud *cloud, const crease_sheet *rival, bool *instead);
 
 #endif

@@ -17,6 +17,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Times as far from a shell as from a sheet, for 95 % of the points: then the sheet is taken. */
+static const double FURTHER = 2.0;
+
 /* What the fit has brought: everything that is written. */
 typedef struct result {
     crease_regions *regions;
@@ -339,14 +342,24 @@ static crease_status write_outputs(
     return outputs_write(context, s, r, &made);
 }
 
-crease_status fit_part(
-    crease_context *context, const settings *s, report *r, const crease_cloud *cloud, bool *instead)
+/* Whether a sheet is the better model: faces that a shell lacks leave points far from it. */
+static bool is_worse(const result *all, const crease_sheet *rival)
+{
+    const size_t count = crease_cloud_count(all->cloud);
+    const double *const from_part = crease_part_deviations(all->part);
+    const double *const from_sheet = crease_sheet_deviations(rival);
+    return crease_part_state_of(all->part) != CREASE_PART_SHELL ||
+        deviation_summarise(from_part, count).p95 >
+        FURTHER * deviation_summarise(from_sheet, count).p95;
+}
+
+crease_status fit_part(crease_context *context, const settings *s, report *r,
+    const crease_cloud *cloud, const crease_sheet *rival, bool *instead)
 {
     result all = {0};
     crease_status status = build(context, s, r, cloud, &all);
-    if (status == CREASE_OK && instead)
-        *instead = crease_part_state_of(all.part) != CREASE_PART_SHELL;
-    if (status == CREASE_OK && !(instead && *instead)) {
+    *instead = status == CREASE_OK && rival && is_worse(&all, rival);
+    if (status == CREASE_OK && !*instead) {
         cJSON_AddStringToObject(r->root, "method", fit_method_names[s->method]);
         describe(r, s, &all);
         status = write_outputs(context, s, r, &all);
@@ -355,10 +368,10 @@ crease_status fit_part(
     return status;
 }
 #else
-crease_status fit_part(
-    crease_context *context, const settings *s, report *r, const crease_cloud *cloud, bool *instead)
+crease_status fit_part(crease_context *context, const settings *s, report *r,
+    const crease_cloud *cloud, const crease_sheet *rival, bool *instead)
 {
-    (void)r, (void)cloud, (void)instead;
+    (void)r, (void)cloud, (void)rival, (void)instead;
     return crease_context_fail(context, CREASE_ERROR_UNSUPPORTED,
         "%s: this build joins no faces to a part; build with OpenCASCADE (CREASE_CAD=ON), or fit "
         "a sheet (--method sheet)",

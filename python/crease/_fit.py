@@ -30,6 +30,8 @@ _AVERAGING = _TURN | {"neighbours", "resamples", "averaging_neighbours", "passes
                       "marking_neighbours", "mark_threshold", "row_threshold", "multiplicity"}
 #: With fewer points there are no regions to speak of.
 _LEAST_FOR_SHELL = 500
+#: Times as far from a shell as from a sheet, for 95 % of the points: then the sheet is taken.
+_FURTHER = 2.0
 _TAKES = {"automatic": _PART | _SHEET | _WRITING, "part": _PART, "shell": _PART,
           "sheet": _SHEET | _WRITING, "averaging": _AVERAGING}
 
@@ -188,7 +190,8 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
         if automatic and not given.keys() & _SHEET and _wants_shell(work, cloud, handle, given):
             part = build_part(work, cloud, "shell", *_part_options("shell", given),
                               snap=not given.get("no_snap", False))
-            if part.state == "shell":
+            sheet = Sheet(cloud, handle, method)
+            if part.state == "shell" and part.deviation.p95 <= _FURTHER * sheet.deviation.p95:
                 return part
     trim = method != "averaging" and not given.get("no_trim", False)
     return Sheet(cloud, handle, method, trim)
