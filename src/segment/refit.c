@@ -3,9 +3,10 @@
 
 /* Models fitted again to the regions they have by now, and the noise measured again from them.
  * Points next to other regions are left out where there are enough others: their labels were chosen
- * by their distances, so they bend a surface towards where it is already. Those too far from the
- * other regions' surfaces to be of them stay: without them a free form swings at its border. Tubes
- * and balls are fitted to all: a spline of many spans would be free there. */
+ * by their distances, so they bend a surface towards where it is already. In the last fit of free
+ * forms those too far from the other regions' surfaces to be of them stay: without them a free form
+ * swings at its border. Tubes and balls are fitted to all: a spline of many spans would be free
+ * there. */
 #include "segment/segmentation.h"
 
 #include "base/memory.h"
@@ -27,8 +28,8 @@ typedef struct refitting {
     size_t sample;
     int depth;       /* neighbours that must have the same label */
     bool keep_kinds; /* a surface that still fits to the noise keeps its kind */
-    bool last;       /* large free forms as close as they can be, other kinds once more; points
-                        that are certain count as interior */
+    bool last;       /* only large free forms, as close as they can be; points that are certain
+                        count as interior */
     uint8_t *interior;
 } refitting;
 
@@ -123,11 +124,11 @@ static void refit_region(const refitting *run, size_t region, crease_fitter *fit
     crease_segmentation *const seg = run->seg;
     const size_t size = crease_segmentation_size(seg, region);
     const crease_model *const old = &seg->models[region];
-    const bool form = old->type == CREASE_REGION_FREEFORM;
-    if (size < LEAST_MEMBERS || (run->last && form && size < LARGE_FREEFORM))
+    if (size < LEAST_MEMBERS ||
+        (run->last && (old->type != CREASE_REGION_FREEFORM || size < LARGE_FREEFORM)))
         return;
     sample_region(run, region, &fitter->sample);
-    if (run->last && !form ? !fit_again(run, region, fitter) : !fit(run, region, fitter))
+    if (!fit(run, region, fitter))
         return;
     crease_model model;
     crease_fit_covariance(fitter, &fitter->sample, &fitter->best);

@@ -100,8 +100,8 @@ crease_status crease_merge_within(crease_segmentation *seg, size_t sample, doubl
 crease_status crease_relabel(crease_segmentation *seg, int rounds, size_t *changed);
 /* Fits the models to their regions' interiors again. */
 crease_status crease_refit(crease_segmentation *seg, size_t sample, bool keep_kinds);
-/* Fits the models, when the labels stand, to all points that are certain: free forms of large
- * regions as closely as can be, other kinds again. */
+/* Fits the free forms of large regions, when the labels stand, as closely as can be to all points
+ * that are certain. */
 crease_status crease_refit_closely(crease_segmentation *seg);
 /* Looks for other surfaces that explain a region and its surroundings better, or for two of them.
  */
