@@ -12,8 +12,8 @@ namespace crease_cad
 {
 
 static constexpr double OFF_SIGMAS = 4.0, OFF_SPACINGS = 0.25; /* farther points are not on it */
-static constexpr double MOST_LOSS = 0.1;         /* of a solid that is taken for the part */
-static constexpr double MOST_SHELL_LOSS = 0.3;   /* of a shell that is */
+static constexpr double MOST_LOSS = 0.1;                       /* of what is taken for the part */
+static constexpr double MOST_SHELL_LOSS = 0.3;   /* of the shell of points that end at a border */
 static constexpr double MOST_PIECES_LOSS = 0.04; /* of several shells, worth more than faces */
 
 static void project(crease_context *context, const crease_cloud *cloud, Judged &out)
@@ -91,6 +91,7 @@ Judged judge(crease_context *context, const crease_cloud *cloud, const Job &job,
     project(context, cloud, out);
     out.loss = loss_of(job, out);
     out.lost = lost_of(job, out);
+    out.bears = out.loss < (job.bordered ? MOST_SHELL_LOSS : MOST_LOSS);
     return out;
 }
 
@@ -114,7 +115,7 @@ static int rank(const Judged &judged)
         return judged.lost == 0 ? 4 : 3;
     if (judged.state == CREASE_PART_SOLID)
         return -1;
-    if (judged.state == CREASE_PART_SHELL && judged.loss < MOST_SHELL_LOSS)
+    if (judged.state == CREASE_PART_SHELL && judged.bears)
         return 2;
     return judged.outcome.summary.valid && judged.loss < MOST_PIECES_LOSS && shares_edges(judged);
 }

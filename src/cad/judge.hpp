@@ -24,6 +24,7 @@ struct Judged {
     crease_part_state state;
     double loss; /* area that the points stand for and that is not on the shape, plus area of the
                     shape without points, over the area that all points stand for */
+    bool bears;  /* loses no more than a shell may */
     size_t lost; /* regions most of whose points are not on the shape */
     std::unique_ptr<crease_mesh, MeshFree> mesh;
     std::vector<double> deviations; /* of all points, signed */
