@@ -82,37 +82,50 @@ static double outside(double low, double high, double value)
     return away > 0 ? away : 0;
 }
 
-static size_t count_within(
-    const crease_reach *reach, const crease_tree *tree, const crease_node *leaf)
+/* The leaves of a tree that a reach touches, one after the other. */
+typedef struct leaf_walk {
+    const crease_reach *reach;
+    const crease_tree *tree;
+    uint32_t stack[CREASE_TREE_DEPTH];
+    int height;
+} leaf_walk;
+
+static leaf_walk walk_of(const crease_reach *reach, const crease_tree *tree)
 {
-    size_t count = 0;
-    for (uint32_t i = leaf->begin; i < leaf->end; i++) {
-        const double dx = outside(reach->low[0], reach->high[0], tree->x[i]);
-        const double dy = outside(reach->low[1], reach->high[1], tree->y[i]);
-        const double dz = outside(reach->low[2], reach->high[2], tree->z[i]);
-        count += dx * dx + dy * dy + dz * dz <= reach->limit;
+    return (leaf_walk){.reach = reach, .tree = tree, .height = tree->count > 0 ? 1 : 0};
+}
+
+/* NULL after the last. */
+static const crease_node *next_leaf(leaf_walk *walk)
+{
+    while (walk->height > 0) {
+        const crease_node *const node = walk->tree->nodes + walk->stack[--walk->height];
+        if (!crease_reach_touches(walk->reach, node->low, node->high))
+            continue;
+        if (!node->second)
+            return node;
+        walk->stack[walk->height++] = node->second;
+        walk->stack[walk->height++] = (uint32_t)(node + 1 - walk->tree->nodes);
     }
-    return count;
+    return NULL;
+}
+
+static bool is_within(const crease_reach *reach, const crease_tree *tree, uint32_t position)
+{
+    const double dx = outside(reach->low[0], reach->high[0], tree->x[position]);
+    const double dy = outside(reach->low[1], reach->high[1], tree->y[position]);
+    const double dz = outside(reach->low[2], reach->high[2], tree->z[position]);
+    return dx * dx + dy * dy + dz * dz <= reach->limit;
 }
 
 /* Whether the reach holds more than `most` points of the tree. */
 static bool holds_more(const crease_reach *reach, const crease_tree *tree, size_t most)
 {
-    uint32_t stack[CREASE_TREE_DEPTH];
-    int height = 0;
     size_t count = 0;
-    stack[height++] = 0;
-    while (height > 0 && count <= most) {
-        const crease_node *const node = tree->nodes + stack[--height];
-        if (!crease_reach_touches(reach, node->low, node->high))
-            continue;
-        if (node->second) {
-            stack[height++] = node->second;
-            stack[height++] = (uint32_t)(node + 1 - tree->nodes);
-        } else {
-            count += count_within(reach, tree, node);
-        }
-    }
+    leaf_walk walk = walk_of(reach, tree);
+    for (const crease_node *leaf; count <= most && (leaf = next_leaf(&walk)) != NULL;)
+        for (uint32_t i = leaf->begin; i < leaf->end; i++)
+            count += is_within(reach, tree, i);
     return count > most;
 }
 
@@ -239,38 +252,15 @@ double crease_reach_limit(const crease_reach *reach, const crease_tree *tree)
     return fmin(reach->limit, distances[reach->nearest - 1]);
 }
 
-static void mark_leaf(
-    const crease_reach *reach, const crease_tree *tree, const crease_node *leaf, uint8_t *wanted)
-{
-    for (uint32_t i = leaf->begin; i < leaf->end; i++) {
-        const double dx = outside(reach->low[0], reach->high[0], tree->x[i]);
-        const double dy = outside(reach->low[1], reach->high[1], tree->y[i]);
-        const double dz = outside(reach->low[2], reach->high[2], tree->z[i]);
-        if (dx * dx + dy * dy + dz * dz <= reach->limit)
-            wanted[tree->index[i]] = 1;
-    }
-}
-
 void crease_reach_mark(const crease_reach *asked, const crease_tree *tree, uint8_t *wanted)
 {
-    crease_reach within = *asked;
-    const crease_reach *const reach = &within;
-    within.limit = crease_reach_limit(asked, tree);
-    uint32_t stack[CREASE_TREE_DEPTH];
-    int height = 0;
-    if (tree->count > 0)
-        stack[height++] = 0;
-    while (height > 0) {
-        const crease_node *const node = tree->nodes + stack[--height];
-        if (!crease_reach_touches(reach, node->low, node->high))
-            continue;
-        if (node->second) {
-            stack[height++] = node->second;
-            stack[height++] = (uint32_t)(node + 1 - tree->nodes);
-        } else {
-            mark_leaf(reach, tree, node, wanted);
-        }
-    }
+    crease_reach reach = *asked;
+    reach.limit = crease_reach_limit(asked, tree);
+    leaf_walk walk = walk_of(&reach, tree);
+    for (const crease_node *leaf; (leaf = next_leaf(&walk)) != NULL;)
+        for (uint32_t i = leaf->begin; i < leaf->end; i++)
+            if (is_within(&reach, tree, i))
+                wanted[tree->index[i]] = 1;
 }
 
 size_t crease_tree_boxes(const crease_tree *tree, size_t most, double *boxes)
