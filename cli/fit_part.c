@@ -239,18 +239,23 @@ static void describe(report *r, const settings *s, result *all)
     const crease_part_state state = crease_part_state_of(all->part);
     const char *why = crease_part_message(all->part);
     const double volume = crease_part_volume(all->part);
+    const size_t solids = crease_part_solid_count(all->part);
     const deviation_summary d =
         deviation_summarise(crease_part_deviations(all->part), crease_cloud_count(all->cloud));
     cJSON *object = cJSON_AddObjectToObject(r->root, "part");
     cJSON_AddStringToObject(object, "state", states[state]);
     cJSON_AddStringToObject(object, "why", why);
+    cJSON_AddNumberToObject(object, "solids", (double)solids);
     cJSON_AddNumberToObject(object, "volume", volume);
     cJSON_AddBoolToObject(object, "united", regions_of(all) != all->regions);
     cJSON_AddNumberToObject(r->root, "noise", crease_regions_sigma(regions_of(all)));
     deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
     describe_lists(r, all);
     describe_snaps(r, all);
-    if (state == CREASE_PART_SOLID)
+    if (solids > 1)
+        report_line(r, "%zu closed, valid solids, volume %.6g%s%s", solids, volume,
+            *why ? "; but " : "", why);
+    else if (state == CREASE_PART_SOLID)
         report_line(r, "%s, volume %.6g%s%s", words[state], volume, *why ? "; but " : "", why);
     else if (s->method == METHOD_SHELL)
         report_line(r, "%s", why);

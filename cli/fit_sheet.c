@@ -226,7 +226,7 @@ static void describe(report *r, const result *all)
     deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
     describe_errors(r, all);
     cJSON_AddNumberToObject(r->root, "face_count", (double)faces);
-    report_line(r, "%zu x %zu control points, %zu faces, %zu creases", parts.count[0],
+    report_line(r, "%zu x %zu control points; faces: %zu, creases: %zu", parts.count[0],
         parts.count[1], faces, all->line_count);
     if (all->trim)
         describe_trim(r, all);

@@ -37,7 +37,7 @@ static void print_model(const report *r, const char *path, const crease_cad_info
 {
     report_line(r, "%s: %s%s%s, %s", path, info->format, info->schema[0] ? " " : "", info->schema,
         info->valid ? "valid" : "NOT valid");
-    report_line(r, "  %zu solids, %zu shells (%zu closed), %zu faces, %zu edges, %zu vertices",
+    report_line(r, "  solids: %zu, shells: %zu (%zu closed), faces: %zu, edges: %zu, vertices: %zu",
         info->solids, info->shells, info->closed_shells, info->faces, info->edges, info->vertices);
     report_line(r, "  faces: %zu B-spline, %zu plane, %zu other", info->bspline_faces,
         info->plane_faces, info->other_faces);

@@ -103,7 +103,7 @@ typedef struct crease_part crease_part;
 
 /** What became of a part, best first. */
 typedef enum crease_part_state {
-    CREASE_PART_SOLID, /**< a closed shell around a volume, valid */
+    CREASE_PART_SOLID, /**< closed shells around a volume, valid: one solid, or several apart */
     CREASE_PART_SHELL, /**< valid faces that share edges, some of them free */
     CREASE_PART_FACES  /**< faces of which some share no edges, or that are not valid together */
 } crease_part_state;
@@ -155,7 +155,10 @@ CREASE_API void crease_part_free(crease_part *part);
 CREASE_API crease_part_state crease_part_state_of(const crease_part *part);
 /** A sentence that says what is missing, and why; "" for a solid that lacks nothing. */
 CREASE_API const char *crease_part_message(const crease_part *part);
-/** The volume; 0 unless the part is a solid. */
+/** How many bodies lie side by side in the cloud, each a solid of its own; a void belongs to the
+ * solid around it. 0 unless the part is solid. */
+CREASE_API size_t crease_part_solid_count(const crease_part *part);
+/** The volume of all solids; 0 unless the part is solid. */
 CREASE_API double crease_part_volume(const crease_part *part);
 /** The regions by whose numbers the faces call theirs: those given, or, when these leave faces open
  * and regions that join without an angle close once they are united, such ones; they belong to the

@@ -419,6 +419,7 @@ CAD_FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "crease_part_free": (None, _object),
     "crease_part_state_of": (c_int, _object),
     "crease_part_message": (c_char_p, _object),
+    "crease_part_solid_count": (c_size_t, _object),
     "crease_part_volume": (c_double, _object),
     "crease_part_regions": (_object, _object),
     "crease_part_face_count": (c_size_t, _object),

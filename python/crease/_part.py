@@ -83,8 +83,13 @@ class Part(Seen):
         return sentence.decode(errors="replace")
 
     @property
+    def solids(self) -> int:
+        """Bodies side by side, each a solid of its own; 0 unless the part is solid."""
+        return int(LIBRARY.crease_part_solid_count(self._handle))
+
+    @property
     def volume(self) -> float:
-        """0 unless it is a solid."""
+        """Of all solids; 0 unless the part is solid."""
         return float(LIBRARY.crease_part_volume(self._handle))
 
     @property

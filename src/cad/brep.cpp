@@ -5,11 +5,11 @@
  * rim and seam again; a pole is an edge without length. */
 #include "cad/brep.hpp"
 
+#include "cad/closing.hpp"
 #include "cad/kernel.hpp"
 #include "cad/space_curve.hpp"
 
 #include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Line.hxx>
@@ -20,7 +20,6 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shell.hxx>
-#include <TopoDS_Solid.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <TopoDS_Wire.hxx>
 
@@ -288,18 +287,7 @@ void Assembly::set_tolerances()
         builder.UpdateVertex(vertex.shape, vertex.tolerance);
 }
 
-TopoDS_Shape solid_of(TopoDS_Shell shell)
-{
-    BRep_Builder builder;
-    TopoDS_Solid solid;
-    shell.Closed(true);
-    builder.MakeSolid(solid);
-    builder.Add(solid, shell);
-    BRepLib::OrientClosedSolid(solid);
-    return solid;
-}
-
-/* Faces as shells, turned so that neighbours agree. */
+/* Faces as solids where they close, as shells otherwise, turned so that neighbours agree. */
 TopoDS_Shape joined(const std::vector<TopoDS_Face> &faces)
 {
     BRep_Builder builder;
@@ -310,9 +298,12 @@ TopoDS_Shape joined(const std::vector<TopoDS_Face> &faces)
     ShapeFix_Shell fix;
     fix.FixFaceOrientation(shell);
     const TopoDS_Shape fixed = fix.Shape();
-    if (fixed.ShapeType() == TopAbs_SHELL && BRep_Tool::IsClosed(fixed))
-        return solid_of(TopoDS::Shell(fixed));
-    return fixed;
+    std::vector<TopoDS_Shell> shells;
+    for (TopExp_Explorer it(fixed, TopAbs_SHELL); it.More(); it.Next())
+        shells.push_back(TopoDS::Shell(it.Current()));
+    const bool closed = std::all_of(shells.begin(), shells.end(),
+        [](const TopoDS_Shell &part) { return BRep_Tool::IsClosed(part); });
+    return closed && !shells.empty() ? solids_of(shells) : fixed;
 }
 
 Brep Assembly::build()

@@ -17,12 +17,12 @@ namespace crease_cad
 {
 
 struct Brep {
-    TopoDS_Shape shape;           /* solid, shell, or compound; null without faces */
+    TopoDS_Shape shape;           /* solid, shell, or a compound of them; null without faces */
     std::vector<uint32_t> failed; /* regions whose face could not be made */
     double tolerance;             /* the largest of an edge, in the cloud's unit */
 };
 
-/* A solid when all faces are there and close, its faces turned outwards. */
+/* Solids when all faces are there and close, their faces turned outwards. */
 Brep brep_of(const crease_topology &topology, const Scaling &scaling);
 
 } // namespace crease_cad

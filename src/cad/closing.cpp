@@ -6,12 +6,16 @@
 #include "cad/kernel.hpp"
 
 #include <BRepCheck_Analyzer.hxx>
+#include <BRepClass3d_SolidClassifier.hxx>
 #include <BRepGProp.hxx>
+#include <BRepLib.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
+#include <Precision.hxx>
 #include <ShapeUpgrade_UnifySameDomain.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -171,6 +175,62 @@ TopoDS_Shape solid_of(const std::vector<TopoDS_Face> &faces)
         if (i == 0 || parts[i].volume < -LEAST_VOID * std::fabs(parts[0].volume))
             builder.Add(solid, parts[i].shell);
     return united(solid);
+}
+
+static TopoDS_Solid oriented_solid(TopoDS_Shell shell)
+{
+    BRep_Builder builder;
+    TopoDS_Solid solid;
+    shell.Closed(true);
+    builder.MakeSolid(solid);
+    builder.Add(solid, shell);
+    BRepLib::OrientClosedSolid(solid);
+    return solid;
+}
+
+static bool is_within(const TopoDS_Solid &inner, const TopoDS_Solid &outer)
+{
+    const TopoDS_Vertex vertex = TopoDS::Vertex(TopExp_Explorer(inner, TopAbs_VERTEX).Current());
+    const BRepClass3d_SolidClassifier where(outer, BRep_Tool::Pnt(vertex), Precision::Confusion());
+    return where.State() == TopAbs_IN;
+}
+
+TopoDS_Shape solids_of(const std::vector<TopoDS_Shell> &shells)
+{
+    struct Body {
+        TopoDS_Solid solid, with_voids;
+        double volume;
+        int depth;     /* how many others it is within */
+        size_t around; /* the smallest of them */
+    };
+    BRep_Builder builder;
+    std::vector<Body> bodies;
+    for (const TopoDS_Shell &shell : shells) {
+        const TopoDS_Solid solid = oriented_solid(shell);
+        bodies.push_back({solid, TopoDS::Solid(solid.EmptyCopied()), volume_of(solid), 0, 0});
+    }
+    std::stable_sort(bodies.begin(), bodies.end(),
+        [](const Body &a, const Body &b) { return a.volume > b.volume; });
+    TopoDS_Compound compound;
+    builder.MakeCompound(compound);
+    for (size_t i = 0; i < bodies.size(); i++) {
+        for (size_t j = 0; j < i; j++)
+            if (is_within(bodies[i].solid, bodies[j].solid)) {
+                bodies[i].depth++;
+                bodies[i].around = j;
+            }
+        const bool is_void = bodies[i].depth % 2 == 1;
+        Body &whole = bodies[is_void ? bodies[i].around : i];
+        const TopoDS_Shape shell = TopoDS_Iterator(bodies[i].solid).Value();
+        builder.Add(whole.with_voids, is_void ? shell.Reversed() : shell);
+    }
+    size_t solids = 0;
+    for (const Body &body : bodies)
+        if (body.depth % 2 == 0) {
+            builder.Add(compound, body.with_voids);
+            solids++;
+        }
+    return solids == 1 ? TopoDS_Shape(bodies[0].with_voids) : TopoDS_Shape(compound);
 }
 
 TopoDS_Shape shells_of(const std::vector<TopoDS_Face> &faces)

@@ -61,7 +61,8 @@ static Summary summarise(const TopoDS_Shape &shape)
     Summary out = {};
     out.closed = is_closed(shape);
     out.together = count_of(shape, TopAbs_SHELL) == 1 || count_of(shape, TopAbs_FACE) == 1;
-    if (out.closed && count_of(shape, TopAbs_SOLID) == 1)
+    out.solids = out.closed ? count_of(shape, TopAbs_SOLID) : 0;
+    if (out.solids > 0)
         out.volume = std::max(0.0, volume_of(shape, INTEGRAL_ERROR));
     return out;
 }

@@ -28,7 +28,8 @@ struct Summary {
     bool valid;    /* OpenCASCADE finds no fault */
     bool closed;   /* every edge has two faces */
     bool together; /* one set of faces connected by edges */
-    double volume; /* 0 unless it is one closed solid */
+    size_t solids; /* 0 unless all faces close */
+    double volume; /* of these */
 };
 
 struct Outcome {

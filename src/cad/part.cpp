@@ -241,6 +241,7 @@ static std::unique_ptr<crease_part> part_of(Search &search)
         part->coarser = std::move(search.coarser_regions);
     if (!is_true_solid(part->judged)) {
         part->judged.outcome.summary.volume = 0.0;
+        part->judged.outcome.summary.solids = 0;
         if (part->judged.state == CREASE_PART_SOLID)
             part->judged.state = CREASE_PART_FACES;
     }
@@ -294,6 +295,11 @@ crease_part_state crease_part_state_of(const crease_part *part)
 const char *crease_part_message(const crease_part *part)
 {
     return part->message.c_str();
+}
+
+size_t crease_part_solid_count(const crease_part *part)
+{
+    return part->judged.outcome.summary.solids;
 }
 
 double crease_part_volume(const crease_part *part)

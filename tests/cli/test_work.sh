@@ -66,19 +66,19 @@ assert degrees.count(3) == 8 and set(degrees) <= {2, 3}, degrees'
 # --- creases as the curves that they are: edges that share their corners, except in IGES
 for file in c.step c.stp c.brep; do
     expect 0 "wrote $file" detect cube.ply --creases $file
-    expect 0 "12 edges, 8 vertices" info $file
+    expect 0 "edges: 12, vertices: 8" info $file
     expect 0 "12 on no face" info $file
 done
 expect 0 "wrote c.igs" detect cube.ply --creases c.igs
-expect 0 "12 edges, 24 vertices" info c.igs
+expect 0 "edges: 12, vertices: 24" info c.igs
 expect 0 "no crease to write: none.step" detect panel.ply --sigma 0.2 --creases none.step
 check "a file without creases is not written" test ! -e none.step
 expect 0 "600 points" example panel --count 600 -o few.ply
 expect 0 "wrote l.step" fit few.ply --creases l.step
-expect 0 "1 edges, 2 vertices" info l.step
+expect 0 "edges: 1, vertices: 2" info l.step
 
 # --- a cloud beside a model
-expect 0 "2 faces" fit sample.ply -o roof.step --points roof.csv
+expect 0 "faces: 2" fit sample.ply -o roof.step --points roof.csv
 expect 0 "2 faces, 0 of them without a point" compare roof.step roof.csv -o dev.ply -o dev.png -o dev.html \
     --report dev.json
 check "points on the model have no deviation, and every face has its own" python3 -c '
@@ -119,7 +119,7 @@ expect 0 "creases: none" detect panel.ply --sigma 0.2 -o none.ply -o none.png -o
 expect 2 "number from 0" detect panel.ply --sigma -1 -o known.ply
 
 # --- fit, sheet
-expect 0 "2 faces, 1 creases" fit sample.ply -o s.step -o s.igs -o s.brep -o s.obj -o s.stl -o s.ply \
+expect 0 "faces: 2, creases: 1" fit sample.ply -o s.step -o s.igs -o s.brep -o s.obj -o s.stl -o s.ply \
     -o s.glb -o s.png -o s.svg -o s.pdf -o s.html --creases s_creases.ply --points s_on.ply --report s.json
 for file in s.step s.igs s.brep; do
     expect 0 "2 B-spline" info $file
@@ -138,15 +138,15 @@ u = r["surface"]["u"]["knots"]
 assert max(u.count(k) for k in u[4:-4]) == 3, u
 assert r["seconds"]["total"] > 0'
 
-expect 0 "0 creases" fit sample.ply --most-creases 0 -o smooth.png -o smooth.html
+expect 0 "creases: 0" fit sample.ply --most-creases 0 -o smooth.png -o smooth.html
 expect 0 "no room for a crease" fit sample.ply --net 6x6 -o small.step
-expect 0 "1 creases" fit sample.ply --net 7x4 -o small.step
+expect 0 "creases: 1" fit sample.ply --net 7x4 -o small.step
 
 # --- fit, sheet: it ends where the points do
 awk 'BEGIN { for (i = 0; i <= 40; i++) for (j = 0; j <= 20; j++) { x = i / 20; y = j / 20
     if ((x - 1.5) ^ 2 + (y - 0.5) ^ 2 > 0.06) print x, y, x < 1 ? x - 1 : 1 - x } }' >holed.xyz
 expect 0 "holes inside faces: 1" fit holed.xyz --method sheet -o t.step -o t.igs -o t.obj -o t.png -o t.html --report t.json
-expect 0 "2 faces, 8 edges, 7 vertices" info t.step
+expect 0 "faces: 2, edges: 8, vertices: 7" info t.step
 expect 0 "7 free, 1 sharp" info t.step
 expect 0 ", valid" info t.igs
 check "the report has the sheet and its loops in u and v" python3 -c '
@@ -160,8 +160,8 @@ for face in r["trim"]["faces"]:
         ends = [r["trim"]["edges"][abs(e) - 1]["control_points"][::1 if e > 0 else -1] for e in loop]
         for i, points in enumerate(ends):
             assert max(abs(a - b) for a, b in zip(points[-1], ends[(i + 1) % len(ends)][0])) < 1e-9, loop'
-expect 0 "2 faces, 1 creases" fit holed.xyz --method sheet --no-trim -o t.step --report t.json
-expect 0 "2 faces, 7 edges, 6 vertices" info t.step
+expect 0 "faces: 2, creases: 1" fit holed.xyz --method sheet --no-trim -o t.step --report t.json
+expect 0 "faces: 2, edges: 7, vertices: 6" info t.step
 check "nothing was cut off" python3 -c '
 import json
 assert "trim" not in json.load(open("t.json"))'
@@ -173,11 +173,11 @@ for file in p.obj p.stl p.ply p.glb p.png p.svg p.html p_creases.ply; do
     check "$file is there" test -s $file
 done
 for file in p.step p.brep; do
-    expect 0 "1 solids, 1 shells (1 closed), 6 faces, 12 edges, 8 vertices" info $file
+    expect 0 "solids: 1, shells: 1 (1 closed), faces: 6, edges: 12, vertices: 8" info $file
     expect 0 "0 free, 12 sharp" info $file
     expect 0 "volume 1," info $file
 done
-expect 0 "6 faces" info p.igs
+expect 0 "faces: 6" info p.igs
 check "the report tells six planes and twelve right angles" python3 -c '
 import json
 r = json.load(open("p.json"))
@@ -192,9 +192,9 @@ for e in r["edges"]:
 assert {"regions", "creases", "part", "write"} <= set(r["seconds"])'
 expect 0 "field deviation: " info p_on.ply
 expect 0 "field face: 0 to 5" info p_on.ply
-expect 0 "6 faces" fit cube.ply --faces bspline -o pb.step
+expect 0 "faces: 6" fit cube.ply --faces bspline -o pb.step
 expect 0 "6 B-spline, 0 plane, 0 other" info pb.step
-expect 0 "1 solids" info pb.step
+expect 0 "solids: 1," info pb.step
 expect 0 "lie one over another, and the sheet passes between them: take --method part" \
     fit cube.ply --method sheet -o forced.step
 expect 2 "analytic or bspline" fit cube.ply --faces round
@@ -210,7 +210,7 @@ assert kinds == ["parallel"] * 3 + ["perpendicular"] * 3, kinds
 assert sorted(r for s in on["snapped"][:3] for r in s["regions"]) == list(range(6))'
 expect 0 "30000 points" example bracket -o bracket.ply
 expect 0 "11 faces: 8 planes, 3 cylinders" fit bracket.ply -o bracket.step
-expect 0 "1 solids, 1 shells (1 closed), 11 faces" info bracket.step
+expect 0 "solids: 1, shells: 1 (1 closed), faces: 11" info bracket.step
 expect 0 "11 faces, 0 of them without a point" compare bracket.step bracket.ply
 # a sparse scan: a way of building that fills the large hole must not win (volume 73 700 then)
 expect 0 "8000 points" example bracket --count 8000 -o sparse.ply
@@ -222,7 +222,7 @@ awk 'BEGIN { srand(5); for (face = 0; face < 3; face++) for (i = 0; i < 900; i++
     print face == 0 ? 0 : a, face == 1 ? 0 : face == 0 ? a : b, face == 2 ? 0 : b } }' >corner.xyz
 expect 0 "an open shell of 3 faces with 6 free edges" fit corner.xyz --method shell -o corner.step \
     --creases corner_creases.csv --points corner_on.ply --report corner.json -o corner.obj -o corner.html
-expect 0 "0 solids, 1 shells (0 closed), 3 faces" info corner.step
+expect 0 "solids: 0, shells: 1 (0 closed), faces: 3" info corner.step
 expect 0 "field face: 0 to 2" info corner_on.ply
 check "the report tells three sharp edges and six free ones" python3 -c '
 import json
@@ -232,7 +232,7 @@ free = [e for e in r["edges"] if len(e["faces"]) == 1]
 assert len(free) == 6 and len(r["edges"]) == 9
 assert all(abs(e["angle"] - 90) < 1e-4 for e in r["edges"] if e not in free)
 assert abs(sum(f["area"] for f in r["faces"]) - 3) < 0.06'
-expect 0 "3 faces" fit corner.xyz --method shell --faces bspline -o corner.brep
+expect 0 "faces: 3" fit corner.xyz --method shell --faces bspline -o corner.brep
 expect 0 "3 B-spline, 0 plane" info corner.brep
 
 # --- fit, the paper's algorithm: rows 3 and 4 are repeated, a flat-topped ridge

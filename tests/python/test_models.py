@@ -96,6 +96,7 @@ def test_options_reach_the_library():
 def test_the_part_of_the_cube_is_a_solid(part):
     assert (part.state, part.message) == ("solid", "")
     assert part.volume == pytest.approx(1)
+    assert part.solids == 1
     assert len(part.faces) == 6 and len(part.creases) == 12
     assert all(face.region.type == "plane" and face.area == pytest.approx(1) for face in part.faces)
     assert part.deviation.max < 1e-9 and set(part.face) == set(range(6))

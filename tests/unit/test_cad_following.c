@@ -64,6 +64,22 @@ static void add(given_points *to, given_points from, int32_t label)
     free(from.labels);
 }
 
+static void then_solids(const built *b, size_t solids, size_t shells, size_t faces, double volume)
+{
+    crease_cad_info info;
+    if (crease_part_state_of(b->part) != CREASE_PART_SOLID)
+        fail_msg("%s", crease_part_message(b->part));
+    assert_int_equal(crease_part_solid_count(b->part), solids);
+    assert_int_equal(crease_part_face_count(b->part), faces);
+    assert_near(crease_part_volume(b->part), volume, 1e-4 * volume);
+    assert_int_equal(crease_part_write(b->context, b->part, in_folder("part.step")), CREASE_OK);
+    assert_int_equal(crease_cad_info_read(b->context, in_folder("part.step"), &info), CREASE_OK);
+    assert_true(info.valid);
+    assert_int_equal(info.solids, solids);
+    assert_int_equal(info.closed_shells, shells);
+    assert_near(info.volume, volume, 1e-4 * volume);
+}
+
 static void then_solid(const built *b, size_t faces, size_t edges, size_t vertices, double volume)
 {
     crease_cad_info info;
@@ -155,11 +171,42 @@ static void given_slot_shaped_plate_when_built_then_a_solid_of_six_faces(void **
     end(&b);
 }
 
+static void add_sphere(given_body *to, given_points *points, const double centre[3], double radius)
+{
+    const double z[3] = {0, 0, 1};
+    const int32_t label = (int32_t)to->count;
+    given_body ball = {.size = 1};
+    const double origin[3] = {0, 0, 0};
+    given_add(&ball, given_models_model(CREASE_REGION_SPHERE, origin, z, radius, 0));
+    given_points on = given_sample(&ball, S, 0, 6);
+    for (size_t i = 0; i < on.count; i++)
+        for (int c = 0; c < 3; c++)
+            on.points[3 * i + (size_t)c] += centre[c];
+    add(points, on, label);
+    given_add(to, given_models_model(CREASE_REGION_SPHERE, centre, z, radius, 0));
+}
+
+/* A box with a void in which a ball lies, and another ball beside it. */
+static void given_bodies_apart_and_within_when_built_then_three_solids(void **state)
+{
+    const double middle[3] = {0, 0, 0}, beside[3] = {1.5, 0.2, 0.1};
+    given_body all = given_box(0.7, 0.6, 0.65);
+    given_points points = given_sample(&all, S, 0, 5);
+    add_sphere(&all, &points, middle, 0.5);
+    add_sphere(&all, &points, middle, 0.3);
+    add_sphere(&all, &points, beside, 0.4);
+    built b = build(&all, points);
+    const double ball = 4.0 / 3.0 * acos(-1);
+    then_solids(&b, 3, 4, 9, 8 * 0.7 * 0.6 * 0.65 + ball * (0.027 + 0.064 - 0.125));
+    end(&b);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(given_dome_when_built_then_a_solid_of_three_faces),
         cmocka_unit_test(given_slot_shaped_plate_when_built_then_a_solid_of_six_faces),
+        cmocka_unit_test(given_bodies_apart_and_within_when_built_then_three_solids),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
