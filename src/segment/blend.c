@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { SEARCH_STEPS = 30, MOST_SLICES = 100000, LEAST_INTERIOR = 30 };
+enum { SEARCH_STEPS = 24, MOST_SLICES = 100000, LEAST_INTERIOR = 30 };
 
 static const double smallest = 0.5; /* spacings from the edge to where the ball touches */
 static const double grid = 1.06;    /* ratio of radii that are tried */
@@ -28,6 +28,7 @@ typedef struct witness {
 
 typedef struct zone {
     witness *items;
+    double *heights[2]; /* of the items above the planes */
     size_t count; /* inside the blend; those of the planes beyond its ends follow */
     size_t all;
     double sigma;
@@ -148,6 +149,8 @@ static void list(const crease_segmentation *seg, const crease_blend *blend, int3
             continue;
         one->present =
             cut(crease_model_distance(&seg->models[region], place, gradient), out->sigma);
+        for (int i = 0; i < 2; i++)
+            out->heights[i][out->all] = one->at.height[i];
         out->all++;
     }
 }
@@ -198,12 +201,8 @@ static void extend(crease_blend *blend, const zone *around, double length)
 
 static double cost_of(const crease_blend *blend, const zone *around, double radius)
 {
-    double cost = 0.0;
-    crease_rolling_part part;
-    for (size_t i = 0; i < around->count; i++)
-        cost += cut(crease_rolling_distance(&blend->wedge, radius, around->items[i].at, &part),
-            around->sigma);
-    return cost;
+    return crease_rolling_cost(&blend->wedge, radius, around->heights[0], around->heights[1],
+        around->count, around->sigma, CREASE_COST_CUT);
 }
 
 /* The best radius on a grid, and then between its neighbours there. */
@@ -219,13 +218,22 @@ static double find_radius(const crease_blend *blend, const zone *around, double 
         }
     }
     double low = radius / grid, high = radius * grid;
-    for (int i = 0; i < SEARCH_STEPS; i++) {
-        const double a = high - golden * (high - low), b = low + golden * (high - low);
-        if (cost_of(blend, around, a) < cost_of(blend, around, b))
+    double a = high - golden * (high - low), b = low + golden * (high - low);
+    double below = cost_of(blend, around, a), above = cost_of(blend, around, b);
+    for (int i = 0; i < SEARCH_STEPS; i++)
+        if (below < above) {
             high = b;
-        else
+            b = a;
+            above = below;
+            a = high - golden * (high - low);
+            below = cost_of(blend, around, a);
+        } else {
             low = a;
-    }
+            a = b;
+            below = above;
+            b = low + golden * (high - low);
+            above = cost_of(blend, around, b);
+        }
     return 0.5 * (low + high);
 }
 
@@ -321,10 +329,13 @@ crease_status crease_blend_judge(
         room += crease_segmentation_size(seg, (size_t)blend->parts[p]);
     zone around = {.sigma = seg->sigma};
     around.items = crease_allocate(seg->context, room, sizeof *around.items);
+    around.heights[0] = crease_allocate(seg->context, 2 * room, sizeof(double));
+    around.heights[1] = around.heights[0] ? around.heights[0] + room : NULL;
     blend->gain = -INFINITY;
-    if (!around.items)
-        return CREASE_ERROR_NO_MEMORY;
-    const crease_status status = find(seg, fitter, fresh, blend, &around);
+    crease_status status = CREASE_ERROR_NO_MEMORY;
+    if (around.items && around.heights[0])
+        status = find(seg, fitter, fresh, blend, &around);
     free(around.items);
+    free(around.heights[0]);
     return status;
 }

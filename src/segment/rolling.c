@@ -3,11 +3,14 @@
 
 #include "segment/rolling.h"
 
+#include "base/simd.h"
 #include "base/vector.h"
 #include "segment/primitive.h"
 
 #include <math.h>
 #include <string.h>
+
+enum { LANES = 8 };
 
 static const double least_sine = 0.25; /* 14 degrees between the planes, or they make no edge */
 
@@ -83,6 +86,44 @@ double crease_rolling_distance(
     const int nearest = both ? away[1] < away[0] : factors[0] >= 0.0;
     *part = nearest ? CREASE_ROLLING_SECOND : CREASE_ROLLING_FIRST;
     return away[nearest];
+}
+
+/* crease_rolling_distance squared, without branches. */
+CREASE_INLINE double squared_distance(
+    double cosine, double inverse, double radius, double first, double second)
+{
+    const double r0 = first - radius, r1 = second - radius;
+    const double f0 = (r0 - cosine * r1) * inverse, f1 = (r1 - cosine * r0) * inverse;
+    const double square = r0 * f0 + r1 * f1;
+    const double arc = sqrt(square > 0.0 ? square : 0.0) - radius;
+    const double a0 = first * first, a1 = second * second;
+    const double nearer = a1 < a0 ? a1 : a0;
+    const double beside_second = f1 >= 0.0 ? nearer : a1;
+    const double above = f0 >= 0.0 ? beside_second : a0;
+    const double larger = f0 > f1 ? f0 : f1;
+    return larger < 0.0 ? arc * arc : above;
+}
+
+CREASE_VECTORISED double crease_rolling_cost(const crease_wedge *wedge, double radius,
+    const double *first, const double *second, size_t count, double sigma, double cut)
+{
+    const double cosine = wedge->cosine, inverse = 1.0 / (1.0 - cosine * cosine);
+    const double most = cut * sigma * sigma;
+    double sums[LANES] = {0.0}, total = 0.0;
+    const size_t whole = count - count % LANES;
+    for (size_t i = 0; i < whole; i += LANES)
+        for (size_t k = 0; k < LANES; k++) {
+            const double square =
+                squared_distance(cosine, inverse, radius, first[i + k], second[i + k]);
+            sums[k] += square < most ? square : most;
+        }
+    for (size_t i = whole; i < count; i++) {
+        const double square = squared_distance(cosine, inverse, radius, first[i], second[i]);
+        sums[i % LANES] += square < most ? square : most;
+    }
+    for (size_t k = 0; k < LANES; k++)
+        total += sums[k];
+    return total / (sigma * sigma);
 }
 
 void crease_rolling_cylinder(
