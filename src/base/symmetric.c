@@ -3,11 +3,17 @@
 
 #include "base/symmetric.h"
 
+#include "base/simd.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-enum { MOST_SWEEPS = 30 };
+enum {
+    MOST_SWEEPS = 30,
+    LANES = 8,
+    NARROW = 15 /* rows up to which products are summed one by one */
+};
 
 /* Turns rows (and columns) p and q of a so that entry p q vanishes, and the axes with them.
  * Based on: Golub, Van Loan. Matrix Computations. 1996 (8.4, the classical Jacobi rotation). */
@@ -82,7 +88,22 @@ static size_t first_column(size_t row, size_t band)
     return row > band ? row - band : 0;
 }
 
-bool crease_symmetric_factor(double *matrix, size_t n, size_t stride, size_t band)
+/* Scalar product in lanes that are summed in the end, so that it vectorises. */
+CREASE_INLINE double product(const double *a, const double *b, size_t count)
+{
+    double sums[LANES] = {0.0}, sum = 0.0;
+    size_t k = 0;
+    for (; k + LANES <= count; k += LANES)
+        for (size_t lane = 0; lane < LANES; lane++)
+            sums[lane] += a[k + lane] * b[k + lane];
+    for (; k < count; k++)
+        sum += a[k] * b[k];
+    for (size_t lane = 0; lane < LANES; lane++)
+        sum += sums[lane];
+    return sum;
+}
+
+CREASE_INLINE bool factor(double *matrix, size_t n, size_t stride, size_t band, bool wide)
 {
     for (size_t i = 0; i < n; i++) {
         double *const row = matrix + i * stride;
@@ -90,7 +111,9 @@ bool crease_symmetric_factor(double *matrix, size_t n, size_t stride, size_t ban
         for (size_t j = begin; j <= i; j++) {
             const double *const other = matrix + j * stride;
             double sum = row[j];
-            for (size_t k = begin; k < j; k++)
+            if (wide)
+                sum -= product(row + begin, other + begin, j - begin);
+            for (size_t k = wide ? j : begin; k < j; k++)
                 sum -= row[k] * other[k];
             if (j < i)
                 row[j] = sum / other[j];
@@ -101,6 +124,17 @@ bool crease_symmetric_factor(double *matrix, size_t n, size_t stride, size_t ban
         }
     }
     return true;
+}
+
+CREASE_VECTORISED static bool factor_wide(double *matrix, size_t n, size_t stride, size_t band)
+{
+    return factor(matrix, n, stride, band, true);
+}
+
+bool crease_symmetric_factor(double *matrix, size_t n, size_t stride, size_t band)
+{
+    return n > NARROW ? factor_wide(matrix, n, stride, band)
+                      : factor(matrix, n, stride, band, false);
 }
 
 void crease_symmetric_solve(

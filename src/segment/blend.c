@@ -29,7 +29,7 @@ typedef struct witness {
 typedef struct zone {
     witness *items;
     double *heights[2]; /* of the items above the planes */
-    size_t count; /* inside the blend; those of the planes beyond its ends follow */
+    size_t count;       /* inside the blend; those of the planes beyond its ends follow */
     size_t all;
     double sigma;
 } zone;

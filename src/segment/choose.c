@@ -284,6 +284,13 @@ static void try_splines(choice *at, fit_spline *fit, int least)
     }
 }
 
+/* Whether to begin with a spline: what it leaves lets the others be sieved out with few points. */
+static bool is_spline(const crease_model *warm)
+{
+    return warm && warm->type == CREASE_REGION_FREEFORM && warm->patch.spline &&
+        !warm->patch.round && !warm->patch.ball;
+}
+
 static void try_distances(choice *at)
 {
     try_splines(at, crease_fit_tube, 4);
@@ -311,6 +318,10 @@ bool crease_fit_choose(crease_fitter *fitter, const crease_sample *sample, creas
     compare(&at);
     const double exact = exact_share * (double)sample->count + 4.0 * at.log_count;
     if (level >= CREASE_LEVEL_QUADRATIC && fitter->best.cost > exact) {
+        const bool splines = level >= CREASE_LEVEL_ALL && rule != CREASE_RULE_GROWING;
+        const bool early = splines && is_spline(warm);
+        if (early)
+            try_splines(&at, crease_fit_spline, 3);
         try_quadratic(&at, 10);
         if (at.has_quadratic)
             compare(&at);
@@ -318,7 +329,7 @@ bool crease_fit_choose(crease_fitter *fitter, const crease_sample *sample, creas
             try_round(&at);
         if (level >= CREASE_LEVEL_SOLIDS)
             try_solids(&at);
-        if (level >= CREASE_LEVEL_ALL && rule != CREASE_RULE_GROWING)
+        if (splines && !early)
             try_splines(&at, crease_fit_spline, 3);
         if (level >= CREASE_LEVEL_ALL && !at.has_quadratic &&
             (rule == CREASE_RULE_AKAIKE || (warm && (warm->patch.round || warm->patch.ball))))

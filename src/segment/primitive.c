@@ -3,6 +3,7 @@
 
 #include "segment/primitive.h"
 
+#include "base/simd.h"
 #include "base/vector.h"
 
 #include <math.h>
@@ -15,7 +16,7 @@ typedef struct around {
     double outward[3];
 } around;
 
-static around around_axis(const crease_model *model, const double place[3])
+CREASE_INLINE around around_axis(const crease_model *model, const double place[3])
 {
     const double *const axis = model->axes + 6;
     double d[3];
@@ -62,7 +63,7 @@ static double torus_distance(const crease_model *model, const double place[3], d
 {
     const around at = around_axis(model, place);
     const double across = at.away - model->radius;
-    const double length = hypot(across, at.along);
+    const double length = sqrt(across * across + at.along * at.along);
     for (int c = 0; c < 3; c++)
         gradient[c] = length > 0.0
             ? (across * at.outward[c] + at.along * model->axes[6 + c]) / length
@@ -84,6 +85,40 @@ double crease_primitive_distance(
     default:
         return plane_distance(model, place, gradient);
     }
+}
+
+/* cone_distance for many places. */
+CREASE_VECTORISED static void cone_distances(const crease_model *restrict model,
+    const double *restrict places, size_t count, double *restrict distances,
+    double *restrict gradients)
+{
+    const double ox = model->centre[0], oy = model->centre[1], oz = model->centre[2];
+    const double ax = model->axes[6], ay = model->axes[7], az = model->axes[8];
+    const double ex = model->axes[0], ey = model->axes[1], ez = model->axes[2];
+    const double shape = model->shape, radius = model->radius;
+    const double cosine = 1.0 / sqrt(1.0 + shape * shape);
+    for (size_t i = 0; i < count; i++) {
+        const double x = places[3 * i] - ox, y = places[3 * i + 1] - oy, z = places[3 * i + 2] - oz;
+        const double along = x * ax + y * ay + z * az;
+        const double u = x - along * ax, v = y - along * ay, w = z - along * az;
+        const double away = sqrt(u * u + v * v + w * w);
+        const double inverse = 1.0 / (away > 0.0 ? away : 1.0);
+        gradients[3 * i] = cosine * ((away > 0.0 ? u * inverse : ex) - shape * ax);
+        gradients[3 * i + 1] = cosine * ((away > 0.0 ? v * inverse : ey) - shape * ay);
+        gradients[3 * i + 2] = cosine * ((away > 0.0 ? w * inverse : ez) - shape * az);
+        distances[i] = cosine * (away - radius - shape * along);
+    }
+}
+
+void crease_primitive_distances(const crease_model *model, const double *places, size_t count,
+    double *distances, double *gradients)
+{
+    if (model->type == CREASE_REGION_CYLINDER || model->type == CREASE_REGION_CONE) {
+        cone_distances(model, places, count, distances, gradients);
+        return;
+    }
+    for (size_t i = 0; i < count; i++)
+        distances[i] = crease_primitive_distance(model, places + 3 * i, gradients + 3 * i);
 }
 
 void crease_primitive_derivatives(const crease_model *model, const double place[3], double distance,

@@ -14,6 +14,9 @@ enum { CREASE_PRIMITIVE_PARAMETERS = 8 };
 
 double crease_primitive_distance(
     const crease_model *model, const double place[3], double gradient[3]);
+/* The same of many places. */
+void crease_primitive_distances(const crease_model *model, const double *places, size_t count,
+    double *distances, double *gradients);
 /* Derivatives of the distance of a place, given the distance and its gradient. */
 void crease_primitive_derivatives(const crease_model *model, const double place[3], double distance,
     const double gradient[3], const double pivot[3], double out[CREASE_PRIMITIVE_PARAMETERS]);

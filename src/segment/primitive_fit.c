@@ -12,6 +12,7 @@
  * and tori for reliable segmentation. 1998. */
 #include "segment/fitter.h"
 
+#include "base/simd.h"
 #include "base/symmetric.h"
 #include "base/vector.h"
 #include "segment/primitive.h"
@@ -19,7 +20,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { N = CREASE_PRIMITIVE_PARAMETERS, PLANE_ROUNDS = 4, MOST_ROUNDS = 25, MOST_TRIES = 6 };
+enum {
+    N = CREASE_PRIMITIVE_PARAMETERS,
+    PLANE_ROUNDS = 4,
+    MOST_ROUNDS = 25,
+    MOST_TRIES = 6,
+    LANES = 4
+};
 
 static const double flattest = 100.0; /* radius over size of the points: beyond, it is a plane */
 static const double steepest = 20.0;  /* growth of a cone's radius */
@@ -105,13 +112,17 @@ typedef struct search {
 /* Residuals and gradients into set 0 (present) or 1 (on trial); returns the robust cost. */
 static double measure(const search *at, const crease_model *model, int set)
 {
-    double *const residuals = at->fitter->residuals[set], cost = 0.0;
-    for (size_t i = 0; i < at->sample->count; i++) {
-        residuals[i] = crease_primitive_distance(
-            model, at->sample->points + 3 * i, at->fitter->gradients[set] + 3 * i);
-        const double t = residuals[i] * residuals[i] / (9.0 * at->scale * at->scale);
-        cost += t / (1.0 + t);
+    double *const residuals = at->fitter->residuals[set], sums[LANES] = {0.0}, cost = 0.0;
+    const size_t count = at->sample->count;
+    const double unit = 1.0 / (9.0 * at->scale * at->scale);
+    crease_primitive_distances(
+        model, at->sample->points, count, residuals, at->fitter->gradients[set]);
+    for (size_t i = 0; i < count; i++) {
+        const double t = residuals[i] * residuals[i] * unit;
+        sums[i % LANES] += t / (1.0 + t);
     }
+    for (size_t k = 0; k < LANES; k++)
+        cost += sums[k];
     return cost;
 }
 
@@ -124,6 +135,20 @@ static void exchange_sets(crease_fitter *fitter)
     fitter->gradients[1] = gradients;
 }
 
+/* Adds weight times the products of a row with itself and with a residual. */
+CREASE_VECTORISED static void add_row(
+    const double change[N], double weight, double residual, double *matrix, double *right)
+{
+    const crease_four low = *(const crease_four *)change, high = *(const crease_four *)(change + 4);
+    *(crease_four *)right -= weight * residual * low;
+    *(crease_four *)(right + 4) -= weight * residual * high;
+    for (int r = 0; r < N; r++) {
+        const double factor = weight * change[r];
+        *(crease_four *)(matrix + N * r) += factor * low;
+        *(crease_four *)(matrix + N * r + 4) += factor * high;
+    }
+}
+
 /* Normal equations of the weighted residuals, linear in a small change. */
 static void assemble(search *at, const crease_model *model)
 {
@@ -132,14 +157,9 @@ static void assemble(search *at, const crease_model *model)
     memset(at->right, 0, sizeof at->right);
     for (size_t i = 0; i < at->sample->count; i++) {
         const double residual = at->fitter->residuals[0][i];
-        const double weight = crease_fit_weight(residual, at->scale);
         crease_primitive_derivatives(model, at->sample->points + 3 * i, residual,
             at->fitter->gradients[0] + 3 * i, at->pivot, change);
-        for (int r = 0; r < N; r++) {
-            at->right[r] -= weight * change[r] * residual;
-            for (int c = 0; c <= r; c++)
-                at->matrix[N * r + c] += weight * change[r] * change[c];
-        }
+        add_row(change, crease_fit_weight(residual, at->scale), residual, at->matrix, at->right);
     }
 }
 

@@ -98,11 +98,19 @@ static crease_status settle(crease_segmentation *seg, int number, progress *done
     return status;
 }
 
+static bool stands(const crease_segmentation *seg, const progress *done)
+{
+    return done->changed < seg->count / STILL + 1;
+}
+
 static crease_status polish(crease_segmentation *seg)
 {
     crease_status status = crease_refit_closely(seg);
     for (int i = 0; i < 2 && status == CREASE_OK; i++) {
-        status = relabel(seg, LABEL_ROUNDS / 2, &(progress){0});
+        progress done = {0};
+        status = relabel(seg, LABEL_ROUNDS / 2, &done);
+        if (stands(seg, &done))
+            break;
         if (status == CREASE_OK)
             status = crease_refit_closely(seg);
     }
@@ -150,8 +158,7 @@ static crease_status run_stages(crease_segmentation *seg)
         status = improve(seg, number, &done);
         if (status == CREASE_OK)
             status = settle(seg, number, &done);
-        if (number > 0 && !done.merged && !done.dropped && !done.reconsidered &&
-            done.changed < seg->count / STILL + 1)
+        if (number > 0 && !done.merged && !done.dropped && !done.reconsidered && stands(seg, &done))
             break;
     }
     if (status == CREASE_OK)

@@ -42,7 +42,8 @@ double crease_wedge_touch(const crease_wedge *wedge);
  * of it that is nearest. */
 double crease_rolling_distance(
     const crease_wedge *wedge, double radius, crease_section at, crease_rolling_part *part);
-/* Sum of the squared distances of places from the profile over sigma^2, each cut; first and second: their heights above the planes. */
+/* Sum of the squared distances of places from the profile over sigma^2, each cut; first and second:
+ * their heights above the planes. */
 double crease_rolling_cost(const crease_wedge *wedge, double radius, const double *first,
     const double *second, size_t count, double sigma, double cut);
 /* The cylinder that the ball leaves, its centre beside the given place. */

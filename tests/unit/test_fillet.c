@@ -366,6 +366,37 @@ static void the_profile_is_plane_arc_plane(void **state)
     assert_int_equal(part, CREASE_ROLLING_SECOND);
 }
 
+/* The cost of many places is the sum of what the distances of each say, for any number of places,
+ * sharp and blunt wedges, and radii from none to some that reach beyond the places. */
+static void the_cost_of_a_profile_is_that_of_its_distances(void **state)
+{
+    enum { COUNT = 43 };
+    const crease_model plane = given_plane(0, 0, 1, 0);
+    const crease_model others[] = {
+        given_plane(1, 0, 0, 0), given_plane(1, 0, 0.9, 0.2), given_plane(1, 0.3, -0.8, -0.1)};
+    const double between[3] = {2, 0, 1}, sigma = 0.3, most = 9;
+    for (size_t o = 0; o < sizeof others / sizeof *others; o++) {
+        const crease_model *const planes[2] = {&plane, &others[o]};
+        double heights[2][COUNT], cost = 0;
+        crease_wedge wedge;
+        crease_rolling_part part;
+        assert_true(crease_wedge_make(planes, between, &wedge));
+        for (int r = 0; r < 5; r++, cost = 0)
+            for (size_t i = 0; i < COUNT; i++) {
+                const double radius = 0.8 * r, t = (double)i;
+                const double place[3] = {3 * sin(t), 2 * cos(2 * t), 3 * cos(t)};
+                const crease_section at = crease_wedge_section(&wedge, place);
+                const double d = crease_rolling_distance(&wedge, radius, at, &part) / sigma;
+                heights[0][i] = at.height[0];
+                heights[1][i] = at.height[1];
+                cost += fmin(d * d, most);
+                assert_near(
+                    crease_rolling_cost(&wedge, radius, heights[0], heights[1], i + 1, sigma, most),
+                    cost, 1e-9 * (1 + cost));
+            }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -378,6 +409,7 @@ int main(void)
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(the_ball_touches_both_planes),
         cmocka_unit_test(the_profile_is_plane_arc_plane),
+        cmocka_unit_test(the_cost_of_a_profile_is_that_of_its_distances),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,7 @@
 
 #include "given_faces.h"
 
+#include "segment/patch.h"
 #include "segment/region.h"
 
 static const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, z_axis[3] = {0, 0, 1};
@@ -484,6 +485,57 @@ static void work_can_be_cancelled_at_any_time(void **state)
     free_faces(&faces);
 }
 
+/* Polynomials and splines, flat and round: heights have the slopes that differences of them show,
+ * and those of a round one come again after a turn. */
+static void slopes_of_patches_are_those_of_their_heights(void **state)
+{
+    double coefficients[CREASE_PATCH_COEFFICIENTS];
+    for (size_t i = 0; i < CREASE_PATCH_COEFFICIENTS; i++)
+        coefficients[i] = sin(1.7 * (double)i);
+    const double turn = 2 * acos(-1.0);
+    const crease_patch patches[] = {
+        {.degree = 2, .low = {-2, -1}, .high = {2, 1}, .unit = {2, 2}},
+        {.degree = 4, .low = {-2, -1}, .high = {2, 1}, .unit = {2, 2}},
+        {.spline = true, .spans = 3, .low = {-2, -1}, .high = {1, 2}, .unit = {1, 1}},
+        {.spline = true, .spans = 24, .low = {-2, -1}, .high = {22, 5}, .unit = {1, 0.25}},
+        {.spline = true, .round = true, .spans = 6, .high = {turn, 3}, .unit = {turn / 6, 0.5}},
+    };
+    const double step = 1e-5, places[][2] = {{0.13, 0.21}, {-1.9, 0.7}, {0.9, 0.95}};
+    for (size_t k = 0; k < sizeof patches / sizeof *patches; k++)
+        for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+            crease_patch patch = patches[k];
+            double slope[2], ignored[2];
+            const double x = places[i][0], y = places[i][1];
+            patch.coefficients = coefficients;
+            const double height = crease_patch_at(&patch, x, y, slope);
+            const double dx = crease_patch_at(&patch, x + step, y, ignored) -
+                crease_patch_at(&patch, x - step, y, ignored);
+            const double dy = crease_patch_at(&patch, x, y + step, ignored) -
+                crease_patch_at(&patch, x, y - step, ignored);
+            assert_near(dx / (2 * step), slope[0], 1e-6);
+            assert_near(dy / (2 * step), slope[1], 1e-6);
+            if (patch.round)
+                assert_near(crease_patch_at(&patch, x + turn, y, ignored), height, 1e-9);
+        }
+}
+
+/* A spline whose coefficients all are 1 is 1 everywhere: its functions sum to 1, also in the last
+ * cell and on the ends. */
+static void splines_sum_to_one(void **state)
+{
+    double coefficients[CREASE_PATCH_COEFFICIENTS], slope[2];
+    for (size_t i = 0; i < CREASE_PATCH_COEFFICIENTS; i++)
+        coefficients[i] = 1;
+    const crease_patch patch = {
+        .spline = true, .spans = 5, .high = {5, 5}, .unit = {1, 1}, .coefficients = coefficients};
+    for (int i = 0; i <= 50; i++)
+        for (int j = 0; j <= 50; j++) {
+            assert_near(crease_patch_at(&patch, 0.1 * i, 0.1 * j, slope), 1, 1e-14);
+            assert_near(slope[0], 0, 1e-14);
+            assert_near(slope[1], 0, 1e-14);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -501,6 +553,8 @@ int main(void)
         cmocka_unit_test(a_known_noise_is_taken),
         cmocka_unit_test(every_failed_allocation_is_reported),
         cmocka_unit_test(work_can_be_cancelled_at_any_time),
+        cmocka_unit_test(slopes_of_patches_are_those_of_their_heights),
+        cmocka_unit_test(splines_sum_to_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
