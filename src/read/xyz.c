@@ -189,9 +189,10 @@ static crease_span default_name(const xyz *file, size_t number, size_t numbers, 
     static const char *const pts[] = {"intensity", "red", "green", "blue"};
     if (number < 3)
         return text_span(first[number]);
-    if (file->counted && (numbers == 4 || numbers == 7))
+    const bool known = file->counted && number < numbers; /* empty cells come on top */
+    if (known && (numbers == 4 || numbers == 7))
         return text_span(pts[number - 3]);
-    if (file->counted && numbers == 6)
+    if (known && numbers == 6)
         return text_span(pts[number - 2]);
     snprintf(room, 24, "scalar_%zu", number + 1);
     return text_span(room);

@@ -70,6 +70,11 @@ static void given_colours_then_they_are_bytes(void **state)
     then_field_is(cloud, "intensity", CREASE_TYPE_FLOAT64, 0, -100);
     then_field_is(cloud, "blue", CREASE_TYPE_UINT8, 0, 6);
     crease_cloud_free(cloud);
+    /* empty cells come on top of the seven numbers */
+    cloud = when_text_read(context, "a.pts", "1\n1;2;3;-100;;4;5;6;;\n");
+    then_field_is(cloud, "blue", CREASE_TYPE_UINT8, 0, 5);
+    then_field_is(cloud, "scalar_8", CREASE_TYPE_FLOAT64, 0, 6);
+    crease_cloud_free(cloud);
     crease_context_free(context);
 }
 
