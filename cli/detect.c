@@ -161,7 +161,7 @@ static crease_status find_in_parts(
     if (status == CREASE_OK)
         status = input_path(context, s, "the file to read", &path);
     if (status == CREASE_OK)
-        status = crease_detect_stream(
+        status = engine_detect_stream(
             context, path, &options, cloud, &summary, &all->regions, &all->network);
     if (status != CREASE_OK)
         return status;

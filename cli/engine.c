@@ -8,9 +8,9 @@ int engine_main(int count, char **arguments, int (*program)(int count, char **ar
     return program(count, arguments);
 }
 
-crease_status engine_begin(crease_context *context, int threads)
+crease_status engine_begin(crease_context *context, const settings *s)
 {
-    (void)context, (void)threads;
+    (void)context, (void)s;
     return CREASE_OK;
 }
 
@@ -29,4 +29,11 @@ crease_status engine_regions(crease_context *context, const crease_cloud *cloud,
     const crease_regions_options *options, crease_regions **out)
 {
     return crease_regions_find(context, cloud, options, out);
+}
+
+crease_status engine_detect_stream(crease_context *context, const char *input,
+    const crease_stream_options *options, const char *output, crease_stream_summary *summary,
+    crease_regions **regions, crease_network **network)
+{
+    return crease_detect_stream(context, input, options, output, summary, regions, network);
 }

@@ -132,7 +132,7 @@ static crease_status run(const command *c, crease_context *context, const settin
 
 static crease_status lead(const command *c, crease_context *context, const settings *s)
 {
-    crease_status status = engine_begin(context, s->threads);
+    crease_status status = engine_begin(context, s);
     if (status == CREASE_OK)
         status = crease_context_keep(context, s->resume);
     if (status == CREASE_OK)

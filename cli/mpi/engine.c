@@ -6,6 +6,7 @@
 #include "engine.h"
 
 #include "crease/crease_mpi.h"
+#include "limit.h"
 #include "terminal.h"
 
 #include <signal.h>
@@ -16,11 +17,15 @@ enum { NOTHING_TO_DO = -1, EXIT_FAILED = 1 };
 static crease_mpi *team; /* of the one context that a run of the program has */
 static bool begun;
 
-/* Rank 0's word on how many threads each rank shall have. */
-static int tell_threads(int threads)
+/* Rank 0's word on what each rank may take. */
+typedef struct allowance {
+    int64_t threads, memory;
+} allowance;
+
+static allowance tell(allowance given)
 {
-    MPI_Bcast(&threads, 1, MPI_INT, 0, MPI_COMM_WORLD);
-    return threads;
+    MPI_Bcast(&given, 2, MPI_INT64_T, 0, MPI_COMM_WORLD);
+    return given;
 }
 
 static int help(void)
@@ -28,10 +33,15 @@ static int help(void)
     crease_context_options options = crease_context_options_default();
     crease_context *context = NULL;
     crease_mpi *helpers = NULL;
-    options.threads = tell_threads(0);
-    options.cancelled = terminal_cancelled;
-    if (options.threads == NOTHING_TO_DO)
+    const allowance given = tell((allowance){0});
+    if (given.threads == NOTHING_TO_DO)
         return 0;
+    settings s = settings_default();
+    s.memory = (size_t)given.memory;
+    limit_prepare(&s);
+    options.threads = (int)given.threads;
+    options.memory = s.memory;
+    options.cancelled = terminal_cancelled;
     terminal_catch_signals();
     crease_status status = crease_context_create(&options, &context);
     if (status != CREASE_OK) {
@@ -55,15 +65,15 @@ int engine_main(int count, char **arguments, int (*program)(int count, char **ar
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     const int code = rank == 0 ? program(count, arguments) : help();
     if (rank == 0 && !begun)
-        tell_threads(NOTHING_TO_DO);
+        tell((allowance){.threads = NOTHING_TO_DO});
     MPI_Finalize();
     return code;
 }
 
-crease_status engine_begin(crease_context *context, int threads)
+crease_status engine_begin(crease_context *context, const settings *s)
 {
     begun = true;
-    tell_threads(threads);
+    tell((allowance){.threads = s->threads, .memory = (int64_t)s->memory});
     return crease_mpi_create(context, MPI_COMM_WORLD, &team);
 }
 
@@ -92,4 +102,12 @@ crease_status engine_regions(crease_context *context, const crease_cloud *cloud,
 {
     (void)context;
     return crease_mpi_regions_find(team, cloud, options, out);
+}
+
+crease_status engine_detect_stream(crease_context *context, const char *input,
+    const crease_stream_options *options, const char *output, crease_stream_summary *summary,
+    crease_regions **regions, crease_network **network)
+{
+    (void)context;
+    return crease_mpi_detect_stream(team, input, options, output, summary, regions, network);
 }

@@ -25,7 +25,7 @@
 #ifndef CREASE_CREASE_MPI_H
 #define CREASE_CREASE_MPI_H
 
-#include "crease/crease.h"
+#include "crease/crease_stream.h"
 
 #include <mpi.h>
 
@@ -64,6 +64,18 @@ CREASE_API crease_status crease_mpi_scores_compute(crease_mpi *mpi, const crease
  * around them. Less than 2^31 points. Errors: as there, of any rank. */
 CREASE_API crease_status crease_mpi_regions_find(crease_mpi *mpi, const crease_cloud *cloud,
     const crease_regions_options *options, crease_regions **out);
+
+/** Rank 0, while the others serve: crease_detect_stream(), with the same files for any number of
+ * ranks, one included. The limit of memory holds for each rank. When the points fit the other ranks
+ * together, 250 bytes for each and 4 MB for the rank, each of these reads its own share of the rows
+ * (all must see the file under the same name), they sort them along the Morton curve among
+ * themselves, complete and score them while rank 0 finds regions and creases of the sample, label
+ * them, and send what is to be written to rank 0: it holds the sample alone, and no rank touches a
+ * disk in between. When they do not fit, rank 0 works on the file alone, in parts.
+ * summary->parts: the shares, or the parts. Errors: as there, of any rank. */
+CREASE_API crease_status crease_mpi_detect_stream(crease_mpi *mpi, const char *input,
+    const crease_stream_options *options, const char *output, crease_stream_summary *summary,
+    crease_regions **regions, crease_network **network);
 
 #ifdef __cplusplus
 }

@@ -88,12 +88,16 @@ crease_status crease_mpi_scores_stage(const crease_mpi *mpi, const crease_mpi_cl
     crease_mpi_share share = {0};
     found own = {0};
     crease_stage(mpi->context, "neighbours");
-    crease_status status =
-        crease_mpi_share_create(mpi, cloud, crease_scoring_reach(cloud->count, options), &share);
+    crease_mpi_parcels own_points = {0};
+    crease_status status = crease_mpi_parcels_take(mpi, cloud, &own_points);
+    if (status == CREASE_OK)
+        status = crease_mpi_share_create(
+            mpi, &own_points, crease_scoring_reach(cloud->count, options), &share);
     if (status == CREASE_OK)
         status = score(mpi, &share, cloud->count, options, &own);
     if (status == CREASE_OK)
         status = gather(mpi, &share, &own, scores);
+    free(own_points.items);
     free_found(&own);
     crease_mpi_share_free(&share);
     return status;

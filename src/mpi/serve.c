@@ -12,6 +12,8 @@ static crease_status serve(const crease_mpi *mpi, const crease_mpi_request *requ
     if (request->stage == CREASE_MPI_SURROUNDINGS)
         return crease_mpi_surroundings_stage(mpi, &cloud, (int)request->k, NULL);
     mpi->context->options.seed = request->seed;
+    if (request->stage == CREASE_MPI_STREAM)
+        return crease_mpi_stream_stage(mpi);
     return crease_mpi_scores_stage(mpi, &cloud, &request->detect, NULL);
 }
 
@@ -35,6 +37,8 @@ void crease_mpi_free(crease_mpi *mpi)
     crease_mpi_request request = {.stage = CREASE_MPI_END};
     if (mpi->rank == 0)
         crease_mpi_tell(mpi, &request, sizeof request);
+    if (mpi->crew != MPI_COMM_NULL)
+        MPI_Comm_free(&mpi->crew);
     MPI_Comm_free(&mpi->communicator);
     free(mpi);
 }

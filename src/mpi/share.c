@@ -10,62 +10,8 @@
 
 enum { BOXES = 64 }; /* by which a rank tells the others where its points are */
 
-/* A point on its way. */
-typedef struct parcel {
-    double point[3];
-    uint32_t number;
-    uint32_t from; /* place in the list of own points and then those taken */
-} parcel;
-
-/* ----------------------------------------------------------------------------- own points -- */
-
-static size_t first_of(const crease_mpi *mpi, size_t count, int rank)
-{
-    return count / (size_t)mpi->size * (size_t)rank +
-        count % (size_t)mpi->size * (size_t)rank / (size_t)mpi->size;
-}
-
-static void pack(const crease_mpi_cloud *cloud, size_t first, size_t count, parcel *out)
-{
-    for (size_t i = 0; i < count; i++) {
-        const size_t number = cloud->order ? cloud->order[first + i] : first + i;
-        memcpy(out[i].point, cloud->points + 3 * number, sizeof out[i].point);
-        out[i].number = (uint32_t)number;
-        out[i].from = (uint32_t)i;
-    }
-}
-
-/* The largest slice is rank 0's own or as large, but for one point. */
-static crease_status hand_out(const crease_mpi *mpi, const crease_mpi_cloud *cloud, parcel *spare)
-{
-    crease_status status = CREASE_OK;
-    for (int r = 1; r < mpi->size && status == CREASE_OK; r++) {
-        const size_t first = first_of(mpi, cloud->count, r);
-        const size_t count = first_of(mpi, cloud->count, r + 1) - first;
-        pack(cloud, first, count, spare);
-        status = crease_mpi_send(mpi, r, spare, count, sizeof *spare);
-    }
-    return status;
-}
-
-static crease_status take_own(const crease_mpi *mpi, const crease_mpi_cloud *cloud, parcel **out)
-{
-    const size_t first = first_of(mpi, cloud->count, mpi->rank);
-    const size_t count = first_of(mpi, cloud->count, mpi->rank + 1) - first;
-    parcel *const own = crease_allocate(mpi->context, count + 1, sizeof *own);
-    crease_status status = crease_mpi_agree(mpi, own ? CREASE_OK : CREASE_ERROR_NO_MEMORY);
-    if (status == CREASE_OK && mpi->rank > 0)
-        status = crease_mpi_receive(mpi, 0, own, count, sizeof *own);
-    if (status == CREASE_OK && mpi->rank == 0) {
-        status = hand_out(mpi, cloud, own);
-        pack(cloud, first, count, own);
-    }
-    *out = own;
-    return status;
-}
-
 static crease_status make_tree(
-    crease_context *context, const parcel *parcels, size_t count, crease_tree **out)
+    crease_context *context, const crease_mpi_parcel *parcels, size_t count, crease_tree **out)
 {
     double *const points = crease_allocate(context, count, 3 * sizeof *points);
     *out = NULL;
@@ -213,8 +159,8 @@ static crease_status ask_all(asking *ask, int k, crease_mpi_share *share)
 }
 
 /* Chooses which own points go to which rank. */
-static crease_status choose_all(
-    const crease_mpi *mpi, const parcel *own, size_t count, int k, crease_mpi_share *share)
+static crease_status choose_all(const crease_mpi *mpi, const crease_mpi_parcel *own, size_t count,
+    int k, crease_mpi_share *share)
 {
     crease_tree *tree = NULL;
     crease_status status = crease_mpi_agree(mpi, make_tree(mpi->context, own, count, &tree));
@@ -235,12 +181,13 @@ static crease_status choose_all(
 
 static int compare_numbers(const void *a, const void *b)
 {
-    const parcel *const x = a, *const y = b;
+    const crease_mpi_parcel *const x = a, *const y = b;
     return (x->number > y->number) - (x->number < y->number);
 }
 
 /* The piece from sorted parcels; given and taken points become points of the piece. */
-static crease_status fill(const crease_mpi *mpi, const parcel *all, crease_mpi_share *share)
+static crease_status fill(
+    const crease_mpi *mpi, const crease_mpi_parcel *all, crease_mpi_share *share)
 {
     const size_t count = share->own_count + share->counts.taken;
     uint32_t *const after = crease_allocate(mpi->context, count, sizeof *after);
@@ -266,16 +213,21 @@ static crease_status fill(const crease_mpi *mpi, const parcel *all, crease_mpi_s
     return CREASE_OK;
 }
 
-static crease_status complete(const crease_mpi *mpi, parcel *own, crease_mpi_share *share)
+/* The own points are freed as soon as they are copied. */
+static crease_status complete(
+    const crease_mpi *mpi, crease_mpi_parcels *own, crease_mpi_share *share)
 {
     const size_t count = share->own_count + share->counts.taken;
-    parcel *const given = crease_allocate(mpi->context, share->counts.given, sizeof *given);
-    parcel *const all = crease_allocate(mpi->context, count, sizeof *all);
+    crease_mpi_parcel *const given =
+        crease_allocate(mpi->context, share->counts.given, sizeof *given);
+    crease_mpi_parcel *const all = crease_allocate(mpi->context, count, sizeof *all);
     crease_status status = crease_mpi_agree(mpi, given && all ? CREASE_OK : CREASE_ERROR_NO_MEMORY);
     if (status == CREASE_OK) {
         for (size_t i = 0; i < share->counts.given; i++)
-            given[i] = own[share->give[i]];
-        memcpy(all, own, share->own_count * sizeof *all);
+            given[i] = own->items[share->give[i]];
+        memcpy(all, own->items, share->own_count * sizeof *all);
+        free(own->items);
+        own->items = NULL;
         status =
             crease_mpi_exchange(mpi, &share->counts, given, all + share->own_count, sizeof *all);
     }
@@ -291,17 +243,14 @@ static crease_status complete(const crease_mpi *mpi, parcel *own, crease_mpi_sha
 }
 
 crease_status crease_mpi_share_create(
-    const crease_mpi *mpi, const crease_mpi_cloud *cloud, int k, crease_mpi_share *out)
+    const crease_mpi *mpi, crease_mpi_parcels *own, int k, crease_mpi_share *out)
 {
-    parcel *own = NULL;
-    *out = (crease_mpi_share){.own_count = first_of(mpi, cloud->count, mpi->rank + 1) -
-            first_of(mpi, cloud->count, mpi->rank)};
-    crease_status status = take_own(mpi, cloud, &own);
-    if (status == CREASE_OK)
-        status = choose_all(mpi, own, out->own_count, k, out);
+    *out = (crease_mpi_share){.own_count = own->count};
+    crease_status status = choose_all(mpi, own->items, own->count, k, out);
     if (status == CREASE_OK)
         status = complete(mpi, own, out);
-    free(own);
+    free(own->items);
+    *own = (crease_mpi_parcels){NULL, 0};
     if (status != CREASE_OK)
         crease_mpi_share_free(out);
     return status;

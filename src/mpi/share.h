@@ -6,16 +6,8 @@
 #ifndef CREASE_MPI_SHARE_H
 #define CREASE_MPI_SHARE_H
 
-#include "mpi/team.h"
+#include "mpi/parcel.h"
 #include "space/piece.h"
-
-/* The whole cloud, on rank 0; elsewhere only its count is known. */
-typedef struct crease_mpi_cloud {
-    size_t count;
-    const double *points;  /* count x 3 */
-    const uint32_t *order; /* Morton order, and points then have their index as number; NULL: they
-                              are in Morton order, and that is their number */
-} crease_mpi_cloud;
 
 typedef struct crease_mpi_share {
     size_t own_count;
@@ -28,9 +20,10 @@ typedef struct crease_mpi_share {
     uint32_t *take;           /* taken points, in the order in which they arrive */
 } crease_mpi_share;
 
-/* Shares the cloud out. k: how many nearest points of each own point the piece is to hold. */
+/* Completes every rank's own points, which are freed. k: how many nearest points of each own point
+ * the piece is to hold. */
 crease_status crease_mpi_share_create(
-    const crease_mpi *mpi, const crease_mpi_cloud *cloud, int k, crease_mpi_share *out);
+    const crease_mpi *mpi, crease_mpi_parcels *own, int k, crease_mpi_share *out);
 void crease_mpi_share_free(crease_mpi_share *share);
 /* Sets the values of others' points in a piece to what their owners have. values: `size` bytes for
  * each point of the piece. */

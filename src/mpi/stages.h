@@ -7,7 +7,7 @@
 
 #include "mpi/surroundings.h"
 
-enum { CREASE_MPI_END, CREASE_MPI_SCORES, CREASE_MPI_SURROUNDINGS };
+enum { CREASE_MPI_END, CREASE_MPI_SCORES, CREASE_MPI_SURROUNDINGS, CREASE_MPI_STREAM };
 
 typedef struct crease_mpi_request {
     int64_t stage;
@@ -19,6 +19,9 @@ typedef struct crease_mpi_request {
 /* Collective. scores: on rank 0, with room; elsewhere NULL. */
 crease_status crease_mpi_scores_stage(const crease_mpi *mpi, const crease_mpi_cloud *cloud,
     const crease_detect_options *options, crease_scores *scores);
+/* Collective, but not for rank 0, which tells what is to be done; see crease_mpi_detect_stream().
+ */
+crease_status crease_mpi_stream_stage(const crease_mpi *mpi);
 
 /* Rank 0: whether so many points can be shared out. */
 crease_status crease_mpi_check(const crease_mpi *mpi, size_t count);

@@ -171,6 +171,7 @@ crease_status crease_mpi_surroundings_stage(
     const crease_mpi *mpi, const crease_mpi_cloud *cloud, int k, const crease_mpi_surroundings *all)
 {
     work run = {.mpi = mpi, .total = cloud->count, .k = k};
+    crease_mpi_parcels parcels = {0};
     crease_status status = CREASE_OK;
     if (all)
         status = crease_noise_measure(mpi->context, cloud->points, cloud->count, &run.scale);
@@ -178,7 +179,9 @@ crease_status crease_mpi_surroundings_stage(
     if (status == CREASE_OK)
         status = crease_mpi_tell(mpi, &run.scale, sizeof run.scale);
     if (status == CREASE_OK)
-        status = crease_mpi_share_create(mpi, cloud, k, &run.share);
+        status = crease_mpi_parcels_take(mpi, cloud, &parcels);
+    if (status == CREASE_OK)
+        status = crease_mpi_share_create(mpi, &parcels, k, &run.share);
     if (status == CREASE_OK)
         status = crease_mpi_agree(mpi, prepare(&run));
     if (status == CREASE_OK)
@@ -189,6 +192,7 @@ crease_status crease_mpi_surroundings_stage(
     crease_neighbours_free(run.neighbours);
     crease_noise_free(run.noise);
     free(run.values);
+    free(parcels.items);
     crease_mpi_share_free(&run.share);
     return status;
 }

@@ -49,8 +49,10 @@ crease_status crease_mpi_create(crease_context *context, MPI_Comm communicator, 
     MPI_Comm_dup(communicator, &mpi->communicator);
     MPI_Comm_rank(mpi->communicator, &mpi->rank);
     MPI_Comm_size(mpi->communicator, &mpi->size);
+    mpi->crew = MPI_COMM_NULL;
     const crease_status status = check_builds(mpi);
     if (status == CREASE_OK) {
+        MPI_Comm_split(mpi->communicator, mpi->rank > 0 ? 0 : MPI_UNDEFINED, mpi->rank, &mpi->crew);
         *out = mpi;
         return status;
     }
@@ -105,12 +107,22 @@ static crease_status tell_from(const crease_mpi *mpi, int root, void *bytes, siz
 
 crease_status crease_mpi_tell(const crease_mpi *mpi, void *bytes, size_t size)
 {
-    return tell_from(mpi, 0, bytes, size);
+    crease_status status = CREASE_OK;
+    for (size_t at = 0; at < size && status == CREASE_OK; at += PER_MESSAGE)
+        status = tell_from(
+            mpi, 0, (char *)bytes + at, size - at < PER_MESSAGE ? size - at : PER_MESSAGE);
+    return status;
 }
 
 crease_status crease_mpi_add(const crease_mpi *mpi, uint64_t *numbers, size_t count)
 {
     return sum(mpi, numbers, (int)count, MPI_UINT64_T, MPI_SUM);
+}
+
+crease_status crease_mpi_enclose(const crease_mpi *mpi, double low[3], double high[3])
+{
+    const crease_status status = sum(mpi, low, 3, MPI_DOUBLE, MPI_MIN);
+    return status == CREASE_OK ? sum(mpi, high, 3, MPI_DOUBLE, MPI_MAX) : status;
 }
 
 /* What failed on one rank only is told with its number. */

@@ -15,8 +15,20 @@
 struct crease_mpi {
     crease_context *context;
     MPI_Comm communicator;
+    MPI_Comm crew; /* of all ranks but 0; on rank 0 MPI_COMM_NULL */
     int rank, size;
 };
+
+/* The team of all ranks but 0, for what they do among themselves. Of any of them; not collective.
+ */
+static inline crease_mpi crease_mpi_crew(const crease_mpi *mpi)
+{
+    return (crease_mpi){.context = mpi->context,
+        .communicator = mpi->crew,
+        .crew = MPI_COMM_NULL,
+        .rank = mpi->rank - 1,
+        .size = mpi->size - 1};
+}
 
 /* How many items go to and come from every rank. Each list has one number for each rank. */
 typedef struct crease_mpi_counts {
@@ -29,10 +41,12 @@ typedef struct crease_mpi_counts {
 crease_status crease_mpi_wait(const crease_mpi *mpi, MPI_Request *request);
 /* Every rank gets the status of the lowest rank that failed, and its sentence. */
 crease_status crease_mpi_agree(const crease_mpi *mpi, crease_status status);
-/* Rank 0's bytes for all. */
+/* Rank 0's bytes for all; any number of them. */
 crease_status crease_mpi_tell(const crease_mpi *mpi, void *bytes, size_t size);
 /* The sums of all ranks' numbers, for all. */
 crease_status crease_mpi_add(const crease_mpi *mpi, uint64_t *numbers, size_t count);
+/* The box around all ranks' boxes, for all. */
+crease_status crease_mpi_enclose(const crease_mpi *mpi, double low[3], double high[3]);
 /* Items from one rank to another; called by these two. */
 crease_status crease_mpi_send(
     const crease_mpi *mpi, int to, const void *items, size_t count, size_t size);

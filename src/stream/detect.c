@@ -7,11 +7,11 @@
 #include "cloud/cloud.h"
 #include "crease/crease_stream.h"
 #include "crease/network.h"
-#include "stream/labelling.h"
+#include "stream/labelled.h"
+#include "stream/overview.h"
 #include "stream/part.h"
 #include "stream/results.h"
 #include "stream/sample.h"
-#include "write/cloud.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,13 +20,8 @@
 
 enum {
     LEAST_MEMORY = 8000000,
-    FIXED = 4 << 20,
     MOST_PARTS = 1 << 13,
-    MOST_AT_ONCE = 1 << 16,
-    LEAST_AT_ONCE = 1 << 8,
-    IN_MEMORY = 500, /* bytes for each point of a cloud that is held, to find its regions */
-    KEPT = 90,       /* bytes for each point of the sample, to label others by it */
-    LEAST_SAMPLE = 2000
+    KEPT = 90 /* bytes for each point of the sample, to label others by it */
 };
 
 /* Points of others around a part are first thought to be this share of its own. */
@@ -40,7 +35,7 @@ typedef struct work {
     size_t at_once; /* rows that are read together */
     size_t most;    /* points of a part that memory holds, those around it included */
     int k;          /* nearest points that a part must hold of each of its own */
-    crease_labelling labelling;
+    crease_overview overview;
     crease_parts parts;
     crease_results results;
     crease_scoring_counts *counts;
@@ -57,51 +52,11 @@ crease_stream_options crease_stream_options_default(void)
         .memory = (size_t)1 << 30};
 }
 
-/* A row takes its bytes twice, as it is read and as a cloud; then what is made of it. */
-static size_t rows_at_once(const crease_rows *rows, size_t memory)
+static crease_status draw(
+    crease_context *context, void *user, size_t most, crease_cloud **sample, size_t *total)
 {
-    const size_t most = memory / 16 / (3 * crease_rows_size(rows) + 200);
-    return most < LEAST_AT_ONCE ? LEAST_AT_ONCE : most < MOST_AT_ONCE ? most : MOST_AT_ONCE;
-}
-
-/* ----------------------------------------------------------------------------------- sample -- */
-
-static crease_status survey_sample(
-    work *run, size_t most, crease_regions **regions, crease_network **network)
-{
-    crease_context *const context = run->context;
-    crease_cloud *sample = NULL;
-    crease_status status =
-        crease_sample_take(context, run->rows, run->at_once, most, &sample, &run->summary->count);
-    if (status == CREASE_OK) {
-        run->summary->sampled = sample->count;
-        status = crease_regions_find(context, sample, &run->options->regions, regions);
-    }
-    crease_cloud_free(sample);
-    if (status == CREASE_OK)
-        status = crease_network_find(context, *regions, NULL, network);
-    if (status == CREASE_OK)
-        crease_regions_slim(*regions);
-    return status;
-}
-
-/* Of a smaller sample when the regions of this one take more than is thought. */
-static crease_status survey(work *run, crease_regions **regions, crease_network **network)
-{
-    const size_t memory = run->options->memory - FIXED;
-    const size_t rows = crease_rows_count(run->rows), fitting = memory / 8 * 7 / IN_MEMORY;
-    size_t most = fitting < rows ? fitting : rows;
-    crease_status status = survey_sample(run, most, regions, network);
-    while (status == CREASE_ERROR_NO_MEMORY && most / 2 >= LEAST_SAMPLE) {
-        most /= 2;
-        crease_regions_free(*regions);
-        *regions = NULL;
-        status = survey_sample(run, most, regions, network);
-    }
-    if (status == CREASE_OK)
-        status = crease_labelling_create(
-            run->context, *regions, *network, run->summary->count, &run->labelling);
-    return status;
+    const work *const run = user;
+    return crease_sample_take(context, run->rows, run->at_once, most, sample, total);
 }
 
 /* ------------------------------------------------------------------------------------ parts -- */
@@ -142,7 +97,8 @@ static crease_status label_part(work *run, size_t part, crease_held *held)
     crease_found found;
     crease_status status = crease_found_create(run->context, held->piece.count, &found);
     if (status == CREASE_OK)
-        status = crease_label(run->context, &run->labelling, &held->piece, held->tree, &found);
+        status =
+            crease_label(run->context, &run->overview.labelling, &held->piece, held->tree, &found);
     if (status == CREASE_OK && run->options->by_score)
         status = crease_scoring_mark(
             run->context, &scoring, run->parts.count, run->threshold, found.features);
@@ -187,7 +143,7 @@ static crease_status compute(work *run)
     memset(run->counts, 0, sizeof *run->counts);
     run->fits = true;
     run->summary->features = run->summary->outliers = 0;
-    crease_labelling_begin(&run->labelling);
+    crease_labelling_begin(&run->overview.labelling);
     run->k = run->options->by_score ? crease_scoring_reach(count, options) : options->neighbours;
     crease_status status = each_part(run, score_part);
     if (status == CREASE_OK && run->fits)
@@ -226,58 +182,23 @@ static crease_status attempt(work *run)
 
 /* ---------------------------------------------------------------------------------- output -- */
 
-typedef struct writing {
-    work *run;
-    crease_output *output;
-    crease_type normal_type;
-    crease_result *results;
-    float *variance;
-    uint8_t *features;
-    int32_t *regions;
-    size_t number;
-    bool begun;
-} writing;
-
-static crease_status write_rows(writing *to, const crease_cloud *rows, const char *path)
+static crease_status write_all(work *run, crease_labelled *labelled)
 {
-    crease_context *const context = to->run->context;
-    crease_cloud *cloud = NULL;
-    const crease_field fields[] = {{"variance", CREASE_TYPE_FLOAT32, to->variance},
-        {"feature", CREASE_TYPE_UINT8, to->features}, {"region", CREASE_TYPE_INT32, to->regions}};
-    crease_status status =
-        crease_results_next(context, &to->run->results, to->number, rows->count, to->results);
-    for (size_t i = 0; i < rows->count && status == CREASE_OK; i++) {
-        to->variance[i] = to->results[i].variance;
-        to->features[i] = (uint8_t)to->results[i].feature;
-        to->regions[i] = to->results[i].region;
-    }
-    if (status == CREASE_OK)
-        status = crease_cloud_with_fields(context, rows, fields, 3, &cloud);
-    if (status == CREASE_OK && !to->begun) {
-        status = crease_cloud_check_names(context, cloud, path);
-        crease_cloud_write_ply_header(to->output, cloud, to->run->parts.count, to->normal_type);
-        to->begun = true;
-    }
-    if (status == CREASE_OK)
-        crease_cloud_write_records(to->output, cloud, to->normal_type);
-    to->number += rows->count;
-    crease_cloud_free(cloud);
-    return status;
-}
-
-static crease_status write_all(writing *to, const char *path)
-{
-    work *const run = to->run;
     const size_t rows = crease_rows_count(run->rows);
     crease_status status = CREASE_OK;
-    for (size_t at = 0; at < rows && status == CREASE_OK && !crease_output_failed(to->output);
+    for (size_t at = 0, number = 0;
+         at < rows && status == CREASE_OK && !crease_output_failed(labelled->output);
          at += run->at_once) {
         const size_t left = rows - at;
         crease_cloud *cloud = NULL;
         status = crease_rows_read(
             run->context, run->rows, at, left < run->at_once ? left : run->at_once, &cloud);
         if (status == CREASE_OK)
-            status = write_rows(to, cloud, path);
+            status = crease_results_next(
+                run->context, &run->results, number, cloud->count, labelled->results);
+        if (status == CREASE_OK)
+            status = crease_labelled_add(run->context, labelled, cloud);
+        number += cloud ? cloud->count : 0;
         crease_cloud_free(cloud);
         crease_progress(run->context, (double)at / (double)rows);
     }
@@ -287,23 +208,18 @@ static crease_status write_all(writing *to, const char *path)
 static crease_status write_output(work *run, const char *path)
 {
     crease_context *const context = run->context;
-    writing to = {.run = run,
-        .normal_type = run->parts.wide_normals ? CREASE_TYPE_FLOAT64 : CREASE_TYPE_FLOAT32};
+    const crease_labelled like = {.path = path,
+        .count = run->parts.count,
+        .normal_type = run->parts.wide_normals ? CREASE_TYPE_FLOAT64 : CREASE_TYPE_FLOAT32,
+        .at_once = run->at_once};
+    crease_labelled labelled;
     crease_stage(context, "writing");
-    to.results = crease_allocate(context, run->at_once, sizeof *to.results);
-    to.variance = crease_allocate(context, run->at_once, sizeof *to.variance);
-    to.features = crease_allocate(context, run->at_once, sizeof *to.features);
-    to.regions = crease_allocate(context, run->at_once, sizeof *to.regions);
-    crease_status status =
-        to.results && to.variance && to.features && to.regions ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+    crease_status status = crease_labelled_create(context, &like, &labelled);
     if (status == CREASE_OK)
-        status = crease_output_open(context, path, &to.output);
+        status = crease_output_open(context, path, &labelled.output);
     if (status == CREASE_OK)
-        status = crease_output_close(context, to.output, write_all(&to, path));
-    free(to.results);
-    free(to.variance);
-    free(to.features);
-    free(to.regions);
+        status = crease_output_close(context, labelled.output, write_all(run, &labelled));
+    crease_labelled_free(&labelled);
     return status;
 }
 
@@ -318,7 +234,7 @@ static void folder_of(const char *path, char *folder, size_t size)
         snprintf(folder, size, ".");
 }
 
-static crease_status check(
+crease_status crease_stream_check(
     crease_context *context, const crease_stream_options *options, const char *output)
 {
     static const char *const extensions[] = {"ply"};
@@ -329,21 +245,25 @@ static crease_status check(
     return crease_output_choose(context, output, extensions, 1, &choice);
 }
 
-static crease_status detect(
-    work *run, const char *output, crease_regions **regions, crease_network **network)
+static crease_status detect(work *run, const char *output)
 {
-    const size_t memory = run->options->memory - FIXED;
-    run->at_once = rows_at_once(run->rows, memory);
-    crease_status status = survey(run, regions, network);
+    const size_t memory = run->options->memory - CREASE_STREAM_FIXED;
+    run->at_once = crease_overview_at_once(crease_rows_size(run->rows), memory);
+    crease_status status = crease_overview_find(run->context, run->options,
+        crease_overview_most(crease_rows_count(run->rows), run->options->memory), draw, run,
+        &run->overview);
     if (status != CREASE_OK)
         return status;
+    run->summary->count = run->overview.total;
+    run->summary->sampled = run->overview.sampled;
+    run->summary->spacing = run->overview.labelling.spacing;
     run->most = (memory - KEPT * run->summary->sampled) / CREASE_PART_POINT;
-    run->summary->spacing = run->labelling.spacing;
     status = attempt(run);
     if (status == CREASE_OK)
         status = write_output(run, output);
     if (status == CREASE_OK)
-        crease_labelling_settle(&run->labelling, *regions, *network);
+        crease_labelling_settle(
+            &run->overview.labelling, run->overview.regions, run->overview.network);
     return status;
 }
 
@@ -363,24 +283,20 @@ crease_status crease_detect_stream(crease_context *context, const char *input,
         .parts = {.file = -1},
         .results = {.file = -1},
         .summary = summary};
-    crease_status status = check(context, &chosen, output);
+    crease_status status = crease_stream_check(context, &chosen, output);
     if (status == CREASE_OK)
         status = crease_rows_open(context, input, &chosen.read, &run.rows);
     if (status == CREASE_OK) {
         run.counts = crease_allocate(context, 1, sizeof *run.counts);
-        status = run.counts ? detect(&run, output, regions, network) : CREASE_ERROR_NO_MEMORY;
+        status = run.counts ? detect(&run, output) : CREASE_ERROR_NO_MEMORY;
     }
-    crease_labelling_free(&run.labelling);
     crease_results_free(&run.results);
     crease_parts_free(&run.parts);
     crease_rows_close(run.rows);
     free(run.counts);
-    if (status != CREASE_OK) {
-        crease_network_free(*network);
-        crease_regions_free(*regions);
-        *network = NULL;
-        *regions = NULL;
-    }
+    if (status == CREASE_OK)
+        crease_overview_release(&run.overview, regions, network);
+    crease_overview_free(&run.overview);
     return status;
 }
 
@@ -392,7 +308,7 @@ crease_status crease_stream_need(crease_context *context, const char *input,
     const crease_status status = crease_rows_open(context, input, &chosen, &rows);
     if (status == CREASE_OK) {
         *count = crease_rows_count(rows);
-        *bytes = *count * (IN_MEMORY + crease_rows_size(rows));
+        *bytes = *count * (CREASE_STREAM_HELD + crease_rows_size(rows));
     }
     crease_rows_close(rows);
     return status;
@@ -406,8 +322,8 @@ crease_status crease_cloud_read_sample(crease_context *context, const char *inpu
     *out = NULL;
     crease_status status = crease_rows_open(context, input, &chosen, &rows);
     if (status == CREASE_OK)
-        status =
-            crease_sample_take(context, rows, rows_at_once(rows, LEAST_MEMORY), most, out, total);
+        status = crease_sample_take(context, rows,
+            crease_overview_at_once(crease_rows_size(rows), LEAST_MEMORY), most, out, total);
     crease_rows_close(rows);
     return status;
 }

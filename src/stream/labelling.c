@@ -11,6 +11,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of the squared distance beyond which a point is an outlier; and the most for one point. */
+static const double SHARES = 0x1p24, MOST_SHARES = 0x1p31;
+
 crease_status crease_found_create(crease_context *context, size_t count, crease_found *out)
 {
     *out = (crease_found){.regions = crease_allocate(context, count, sizeof *out->regions),
@@ -99,8 +102,10 @@ crease_status crease_label(crease_context *context, crease_labelling *labelling,
     for (size_t i = 0; i < piece->count && status == CREASE_OK; i++) {
         if (!crease_piece_owns(piece, i) || found->regions[i] < 0)
             continue;
-        labelling->sizes[found->regions[i]]++;
-        labelling->squares[found->regions[i]] += found->distances[i] * found->distances[i];
+        const int32_t region = found->regions[i];
+        const double share = found->distances[i] / labelling->assignment.farthest[region];
+        labelling->sizes[region]++;
+        labelling->squares[region] += (uint64_t)(fmin(SHARES * share * share, MOST_SHARES) + 0.5);
     }
     return status;
 }
@@ -110,8 +115,9 @@ void crease_labelling_settle(
 {
     for (size_t r = 0; r < regions->region_count && !labelling->whole; r++) {
         const double size = (double)labelling->sizes[r];
+        const double squares = (double)labelling->squares[r] / SHARES;
         regions->sizes[r] = labelling->sizes[r];
-        regions->rms[r] = size > 0 ? sqrt(labelling->squares[r] / size) : 0.0;
+        regions->rms[r] = size > 0 ? labelling->assignment.farthest[r] * sqrt(squares / size) : 0.0;
     }
     regions->noise_sigma = fmin(regions->noise_sigma, labelling->assignment.sigma);
     network->spacing = labelling->spacing;

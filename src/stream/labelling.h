@@ -23,10 +23,11 @@ typedef struct crease_labelling {
     crease_assignment assignment;
     const crease_regions *regions;
     const crease_network *network;
-    bool whole;      /* the sample is the cloud: what is known of its points is the answer */
-    double spacing;  /* of the cloud */
-    size_t *sizes;   /* by region: points so far, */
-    double *squares; /* and the sum of their squared distances */
+    bool whole;        /* the sample is the cloud: what is known of its points is the answer */
+    double spacing;    /* of the cloud */
+    uint64_t *sizes;   /* by region: points so far, */
+    uint64_t *squares; /* and the sum of their squared distances, in shares of the squared distance
+                          of an outlier: whole numbers, whose sum has no order */
 } crease_labelling;
 
 /* count: points of the whole cloud. */
@@ -41,5 +42,12 @@ crease_status crease_label(crease_context *context, crease_labelling *labelling,
 /* Tells regions and creases what all points are. */
 void crease_labelling_settle(
     const crease_labelling *labelling, crease_regions *regions, crease_network *network);
+
+/* What labelling needs to know, as bytes for another process of the same build; free() them. */
+crease_status crease_labelling_pack(
+    crease_context *context, const crease_labelling *labelling, char **bytes, size_t *size);
+/* The same from such bytes; regions and network, which it looks at, hold no more than it needs. */
+crease_status crease_labelling_unpack(crease_context *context, const char *bytes,
+    crease_regions **regions, crease_network **network, crease_labelling *out);
 
 #endif

@@ -20,17 +20,16 @@ typedef struct sampling {
     crease_cloud *sample;
 } sampling;
 
-static size_t layer_begin(const sampling *run, size_t layer)
+size_t crease_sample_number(const crease_context *context, size_t rows, size_t most, size_t layer)
 {
-    return run->rows * layer / run->most; /* both below 2^32 */
+    const size_t begin = rows * layer / most, end = rows * (layer + 1) / most; /* below 2^64 */
+    return begin +
+        crease_random_below(crease_context_seed(context), STREAM, layer, (uint32_t)(end - begin));
 }
 
 static void choose_next(sampling *run)
 {
-    const size_t begin = layer_begin(run, run->layer), end = layer_begin(run, run->layer + 1);
-    run->next = begin +
-        crease_random_below(
-            crease_context_seed(run->context), STREAM, run->layer, (uint32_t)(end - begin));
+    run->next = crease_sample_number(run->context, run->rows, run->most, run->layer);
 }
 
 static void take(sampling *run, const crease_cloud *cloud, size_t number)

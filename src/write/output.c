@@ -23,12 +23,14 @@ enum { BUFFER_SIZE = 1 << 16, FORMAT_SIZE = 4096 };
 
 struct crease_output {
     crease_context *context;
-    const char *asked;      /* the path as given, for sentences */
-    char target[PATH_MAX];  /* the file that is to be, symbolic links followed */
-    char writing[PATH_MAX]; /* the file being written */
-    bool direct;            /* a device or pipe: writing is the target itself */
-    int file;               /* descriptor, or -1 */
-    int error;              /* errno of the first failure, or 0 */
+    const char *asked;        /* the path as given, for sentences */
+    char target[PATH_MAX];    /* the file that is to be, symbolic links followed */
+    char writing[PATH_MAX];   /* the file being written */
+    bool direct;              /* a device or pipe: writing is the target itself */
+    int file;                 /* descriptor, or -1 */
+    crease_output_take *take; /* what gets the bytes instead of a file, or NULL */
+    void *user;
+    int error; /* errno of the first failure, or 0 */
     bool cancelled;
     size_t used;
     unsigned char buffer[BUFFER_SIZE];
@@ -143,9 +145,30 @@ crease_status crease_output_open(crease_context *context, const char *path, crea
     return CREASE_OK;
 }
 
+crease_status crease_output_divert(
+    crease_context *context, crease_output_take *take, void *user, crease_output **out)
+{
+    crease_output *const output = *out = crease_allocate(context, 1, sizeof *output);
+    if (!output)
+        return CREASE_ERROR_NO_MEMORY;
+    output->context = context;
+    output->asked = "";
+    output->direct = true;
+    output->file = -1;
+    output->take = take;
+    output->user = user;
+    return CREASE_OK;
+}
+
 static void write_out(crease_output *output, const unsigned char *bytes, size_t size)
 {
     output->cancelled = output->cancelled || crease_cancelled(output->context);
+    if (output->take) {
+        if (size && !crease_output_failed(output) && !output->take(output->user, bytes, size))
+            output->error = EIO;
+        output->cancelled = output->cancelled || crease_cancelled(output->context);
+        return;
+    }
     while (size && !crease_output_failed(output)) {
         const ssize_t written = write(output->file, bytes, size);
         if (written < 0 && errno != EINTR)
@@ -185,7 +208,8 @@ crease_status crease_output_close(
         else if (error)
             status = fail(context, output->asked, error);
     }
-    close(output->file);
+    if (output->file >= 0)
+        close(output->file);
     if (status != CREASE_OK && !output->direct)
         unlink(output->writing);
     free(output);

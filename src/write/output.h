@@ -25,6 +25,11 @@ typedef struct crease_output crease_output;
 
 /* Begins to write a file. Errors: CANNOT_WRITE, NO_MEMORY. */
 crease_status crease_output_open(crease_context *context, const char *path, crease_output **out);
+/* Begins to write to something else than a file: `take` gets the bytes, some at a time, and tells
+ * whether it took them. Errors: NO_MEMORY. */
+typedef bool crease_output_take(void *user, const void *bytes, size_t size);
+crease_status crease_output_divert(
+    crease_context *context, crease_output_take *take, void *user, crease_output **out);
 /* Finishes: with CREASE_OK the file takes its name, with any other status it is removed and that
  * status returned. Frees the output in any case (NULL is fine: the status is returned).
  * Errors: CANNOT_WRITE, CANCELLED. */

@@ -51,6 +51,18 @@ for rank in 1 0; do
     [ $rank = 0 ] || check "it is said that a rank has died" grep -q "another rank has died\|exited on signal 9" log
 done
 
+# The same where every rank reads its share.
+expect 0 "" example bracket --count 120000 -o bracket.ply
+checks=$((checks + 3))
+mpirun -n 3 "$mpi" detect bracket.ply -o edge.ply -o new.json -B 500 -t 1 --memory 90M >log 2>&1 &
+job=$!
+kill_rank 2 $job 0.5
+wait $job
+got=$?
+[ $got != 0 ] || fail "rank 2 was killed, and the job ended with 0: $(cat log)"
+[ "$(cat edge.ply)" = old ] || fail "rank 2 was killed, and the old file is gone"
+[ -z "$(ls -A | grep -vx -e bracket.ply -e edge.ply -e log)" ] || fail "rank 2 left $(ls -A)"
+
 # A rank dies after the scores: the next run goes on from there, with another number of ranks.
 expect 0 "" example bracket --count 60000 -o bracket.ply
 expect 0 "" detect bracket.ply -o one.ply -B 20 -q
