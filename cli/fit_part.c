@@ -203,7 +203,8 @@ static void describe_kinds(report *r, const result *all)
 /* What was snapped, by the numbers of the regions. */
 static void describe_snaps(report *r, const result *all)
 {
-    static const char *const names[] = {"parallel", "perpendicular", "coaxial", "equal radii"};
+    static const char *const names[] = {
+        "parallel", "perpendicular", "coaxial", "equal radii", "symmetric"};
     cJSON *list = cJSON_AddArrayToObject(r->root, "snapped");
     for (size_t i = 0; i < crease_regions_snap_count(regions_of(all)); i++) {
         const crease_snap snap = crease_regions_snap_at(regions_of(all), i);
@@ -219,16 +220,17 @@ static void describe_snaps(report *r, const result *all)
 /* How many of each kind. */
 static void tell_snaps(const report *r, const result *all)
 {
-    size_t counts[CREASE_SNAP_EQUAL_RADII + 1] = {0};
+    size_t counts[CREASE_SNAP_SYMMETRIC + 1] = {0};
     const size_t count = crease_regions_snap_count(regions_of(all));
     for (size_t i = 0; i < count; i++)
         counts[crease_regions_snap_at(regions_of(all), i).kind]++;
     if (count > 0)
         report_line(r,
             "snapped within their errors: %zu parallel, %zu perpendicular, %zu coaxial, %zu equal "
-            "radii",
+            "radii, %zu symmetric",
             counts[CREASE_SNAP_PARALLEL], counts[CREASE_SNAP_PERPENDICULAR],
-            counts[CREASE_SNAP_COAXIAL], counts[CREASE_SNAP_EQUAL_RADII]);
+            counts[CREASE_SNAP_COAXIAL], counts[CREASE_SNAP_EQUAL_RADII],
+            counts[CREASE_SNAP_SYMMETRIC]);
 }
 
 static void describe(report *r, const settings *s, result *all)

@@ -45,7 +45,8 @@ const option option_table[] = {
         "B-spline surface",
         NULL},
     {"no-snap", 0, OPTION_FLAG, NULL, FOR_FIT, AT(no_snap), 0, 0, NULL,
-        "part, shell: leave surfaces that are parallel, perpendicular, coaxial or equally large "
+        "part, shell: leave surfaces that are parallel, perpendicular, coaxial, equally large or "
+        "symmetric "
         "within "
         "their errors as the points have them",
         NULL},

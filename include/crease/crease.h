@@ -471,7 +471,8 @@ typedef enum crease_snap_kind {
     CREASE_SNAP_PARALLEL,      /**< normals of planes, axes of cylinders, cones and tori */
     CREASE_SNAP_PERPENDICULAR, /**< two of these, each standing for all that are parallel to it */
     CREASE_SNAP_COAXIAL,       /**< cylinders, cones, tori */
-    CREASE_SNAP_EQUAL_RADII    /**< parallel cylinders, spheres */
+    CREASE_SNAP_EQUAL_RADII,   /**< parallel cylinders, spheres */
+    CREASE_SNAP_SYMMETRIC /**< of two directions, or of places: a mirror takes them to each other */
 } crease_snap_kind;
 
 /** Regions whose surfaces were made to have something exactly in common. */
@@ -481,12 +482,11 @@ typedef struct crease_snap {
     const uint32_t *regions; /**< their numbers, as long as the regions live */
 } crease_snap;
 
-/** Makes surfaces exactly parallel, perpendicular, coaxial or equally large that are so within
- * their errors: no surface moves further than 99 of 100 fits of the same kind err, by the
- * covariance of its fit, and all its other parameters move to what is then the most probable.
- * Fillets follow their planes. Free forms, surfaces that do not explain their points, and those of
- * fewer than 20 points stay as they are. A second call does nothing. O(points + regions^2). Errors:
- * NO_MEMORY. */
+/** Makes surfaces parallel, perpendicular, coaxial, equally large or symmetric that are so within
+ * their errors: none moves further than 99 of 100 fits of the same kind err; its other parameters
+ * move to what is then the most probable. Fillets follow their planes. Mirrors lie across
+ * directions of surfaces, where there are at most 60 places. Free forms, surfaces that do not suit
+ * their points or have fewer than 20 stay. A second call does nothing. O(points + regions^2). */
 CREASE_API crease_status crease_regions_snap(crease_context *context, crease_regions *regions);
 /** What has been snapped: nothing before crease_regions_snap(). */
 CREASE_API size_t crease_regions_snap_count(const crease_regions *regions);

@@ -164,6 +164,7 @@ class SnapKind(IntEnum):
     PERPENDICULAR = 1
     COAXIAL = 2
     EQUAL_RADII = 3
+    SYMMETRIC = 4
 
 
 class Snap(Structure):

@@ -78,7 +78,7 @@ def regions_of(handle: Held) -> list[Region]:
 @dataclass(frozen=True)
 class Snap:
     """Regions whose surfaces were made to have something exactly in common."""
-    to: str  #: parallel, perpendicular, coaxial or equal_radii
+    to: str  #: parallel, perpendicular, coaxial, equal_radii or symmetric
     regions: tuple[int, ...]  #: their numbers
 
 

@@ -158,7 +158,7 @@ def fit(points: Points, *, method: str = "automatic", seed: int = 1, threads: in
 
     Of part and shell: sigma: noise of the points along the normal, when it is known; faces: analytic (planes,
     cylinders ... as what they are) or bspline; no_snap: leave surfaces that are parallel,
-    perpendicular, coaxial or equally large within their errors as the points have them.
+    perpendicular, coaxial, equally large or symmetric within their errors as the points have them.
     Of sheet and averaging: net: control points across and along the edge; orientation: automatic or
     none; rotation: 3 x 3, turns the cloud instead.
     Of sheet: order; most_creases in each direction; smoothing: weight of the thin-plate term;

@@ -3,7 +3,8 @@
 
 /* Surfaces that are parallel, perpendicular, coaxial or equally large within their errors are made
  * so exactly. First the directions, the most certain of them before the others; then the axes of
- * one direction, then the radii: what was settled before is not touched again. A surface that its
+ * one direction, then the radii, then places about mirror planes: what was settled before is not
+ * touched again. A surface that its
  * points then suit clearly less than before is left as it was.
  *
  * Based on: Benko, Kos, Varady, Andor, Martin. Constrained fitting in reverse engineering. 2002
@@ -156,6 +157,39 @@ static crease_status list_upright(const crease_snapping *all, crease_snaps *out)
     return CREASE_OK;
 }
 
+/* A direction and its image. */
+static crease_status list_images(const crease_snapping *all, crease_snaps *out)
+{
+    for (size_t k = 0; k < all->directions.count; k++) {
+        const int32_t image = all->image_of[k];
+        if (image <= (int32_t)k)
+            continue;
+        crease_status status = crease_snaps_begin(all->context, out, CREASE_SNAP_SYMMETRIC);
+        const size_t pair[2] = {first_of(all, (int32_t)k), first_of(all, image)};
+        for (int i = 0; i < 2 && status == CREASE_OK; i++)
+            if (all->moved[pair[i]])
+                status = crease_snaps_add(all->context, out, (uint32_t)pair[i]);
+        if (status != CREASE_OK)
+            return status;
+        crease_snaps_end(out);
+    }
+    return CREASE_OK;
+}
+
+static crease_status list_mirrors(const crease_snapping *all, crease_snaps *out)
+{
+    for (size_t m = 0; m < all->mirror_count; m++) {
+        crease_status status = crease_snaps_begin(all->context, out, CREASE_SNAP_SYMMETRIC);
+        for (size_t i = 0; i < all->count && status == CREASE_OK; i++)
+            if (all->mirrored[all->count * m + i] && all->moved[i])
+                status = crease_snaps_add(all->context, out, (uint32_t)i);
+        if (status != CREASE_OK)
+            return status;
+        crease_snaps_end(out);
+    }
+    return CREASE_OK;
+}
+
 static crease_status list_all(const crease_snapping *all, crease_snaps *out)
 {
     crease_snaps_clear(out);
@@ -166,6 +200,10 @@ static crease_status list_all(const crease_snapping *all, crease_snaps *out)
         status = list_clusters(all, &all->axes, CREASE_SNAP_COAXIAL, out);
     if (status == CREASE_OK)
         status = list_clusters(all, &all->radii, CREASE_SNAP_EQUAL_RADII, out);
+    if (status == CREASE_OK)
+        status = list_images(all, out);
+    if (status == CREASE_OK)
+        status = list_mirrors(all, out);
     return status;
 }
 
@@ -191,6 +229,8 @@ static crease_status snap(crease_snapping *all)
         status = crease_snap_axes(all);
     if (status == CREASE_OK)
         status = crease_snap_radii(all);
+    if (status == CREASE_OK)
+        status = crease_snap_symmetry(all);
     if (status == CREASE_OK)
         status = check_points(all);
     if (status == CREASE_OK)
@@ -224,5 +264,7 @@ crease_status crease_regions_snap(crease_context *context, crease_regions *regio
     free(all.axis_of);
     free(all.across);
     free(all.upright);
+    free(all.image_of);
+    free(all.mirrored);
     return status;
 }

@@ -39,8 +39,7 @@ static void mean_direction(crease_snapping *all, size_t cluster)
     crease_vector_normalise(axis);
 }
 
-/* Squared move of a cluster's direction, in its errors. */
-static double direction_squared(const crease_snapping *all, size_t cluster, const double axis[3])
+double crease_snap_turn_squared(const crease_snapping *all, size_t cluster, const double axis[3])
 {
     const crease_cluster *const from = &all->directions.items[cluster];
     const double *const frame = all->bodies[from->leader].model.axes;
@@ -91,7 +90,7 @@ static void set_upright(crease_snapping *all, size_t cluster)
         if (crease_vector_length(trial) < 0.5)
             continue;
         crease_vector_normalise(trial);
-        if (direction_squared(all, cluster, trial) < CREASE_WITHIN_ERRORS[2]) {
+        if (crease_snap_turn_squared(all, cluster, trial) < CREASE_WITHIN_ERRORS[2]) {
             memcpy(axis, trial, sizeof trial);
             to[1] = (int32_t)k;
             return;
@@ -119,7 +118,8 @@ static void turn_bodies(crease_snapping *all)
         const int32_t own = all->directions.of[i];
         if (own < 0)
             continue;
-        const bool alone = all->directions.items[own].size < 2 && all->upright[own][0] < 0;
+        const bool alone = all->directions.items[own].size < 2 && all->upright[own][0] < 0 &&
+            all->image_of[own] < 0;
         if (!alone && may_turn(all, i, all->axis_of[own]) &&
             crease_body_turn(&all->bodies[i], all->axis_of[own]))
             all->moved[i] = true;
@@ -140,16 +140,21 @@ crease_status crease_snap_directions(crease_snapping *all)
     all->axis_of = crease_allocate(all->context, count, sizeof *all->axis_of);
     all->across = crease_allocate(all->context, count, sizeof *all->across);
     all->upright = crease_allocate(all->context, count, sizeof *all->upright);
-    if (!all->axis_of || !all->across || !all->upright)
+    all->image_of = crease_allocate(all->context, count, sizeof *all->image_of);
+    if (!all->axis_of || !all->across || !all->upright || !all->image_of)
         return CREASE_ERROR_NO_MEMORY;
     for (size_t k = 0; k < count; k++) {
-        double frame[9];
         mean_direction(all, k);
         set_upright(all, k);
+    }
+    status = crease_snap_oblique(all);
+    for (size_t k = 0; k < count; k++) {
+        double frame[9];
         memcpy(frame + 6, all->axis_of[k], sizeof all->axis_of[k]);
         crease_primitive_frame(frame);
         memcpy(all->across[k], frame, sizeof all->across[k]);
     }
-    turn_bodies(all);
-    return CREASE_OK;
+    if (status == CREASE_OK)
+        turn_bodies(all);
+    return status;
 }

@@ -6,6 +6,7 @@
 #include "base/vector.h"
 #include "segment/body.h"
 #include "segment/cluster.h"
+#include "segment/joint.h"
 
 static const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0};
 
@@ -159,6 +160,136 @@ static void pins_of_one_radius_become_equal_and_others_do_not(void **state)
     crease_context_free(context);
 }
 
+/* ------------------------------------------------------------------------------------ mirrors --
+ */
+
+/* A unit cube with a boss on top, its axis this far from the middle. */
+static struct faces given_boss(double aside)
+{
+    const double root = sqrt(acos(-1.0));
+    struct faces faces = given_cube(0.03);
+    const size_t begin = faces.count;
+    add_face(&faces, map_cylinder, (double[]){0.25}, 2 * acos(-1.0) * 0.25, 0.5);
+    add_face(&faces, map_disc, (double[]){0.25, 0.5}, root * 0.25, root * 0.25);
+    move_from(&faces, begin, (double[]){0.5 + aside, 0.5, 1});
+    return faces;
+}
+
+/* How far the axis of the one cylinder is from the middle between the planes across a direction. */
+static double off_middle(const crease_regions *regions, size_t along)
+{
+    double apart[3] = {0}, normal[3] = {0};
+    int planes = 0, axes = 0;
+    for (size_t i = 0; i < crease_regions_count(regions); i++) {
+        const crease_region region = crease_regions_at(regions, i);
+        const bool is_axis = region.type == CREASE_REGION_CYLINDER;
+        const bool is_plane =
+            region.type == CREASE_REGION_PLANE && fabs(region.parameters[3 + along]) > 0.9;
+        for (size_t c = 0; c < 3; c++)
+            apart[c] += (is_axis ? 1 : is_plane ? -0.5 : 0) * region.parameters[c];
+        if (is_plane)
+            memcpy(normal, region.parameters + 3, sizeof normal);
+        planes += is_plane;
+        axes += is_axis;
+    }
+    assert_int_equal(planes, 2);
+    assert_int_equal(axes, 1);
+    return fabs(crease_vector_dot(apart, normal));
+}
+
+static void a_boss_in_the_middle_is_made_so_and_one_beside_it_is_not(void **state)
+{
+    static const double asides[] = {0, 0.02}; /* the errors are some 0.001 */
+    crease_context *context = given_context();
+    for (int k = 0; k < 2; k++) {
+        struct faces faces = given_boss(asides[k]);
+        add_noise(&faces, 0.3);
+        crease_regions *regions = given_regions(context, &faces);
+        const double before = off_middle(regions, 1);
+        assert_true(before > 1e-6 && before < 0.01);
+        assert_int_equal(crease_regions_snap(context, regions), CREASE_OK);
+        assert_int_equal(count_of(regions, CREASE_SNAP_SYMMETRIC), k == 0 ? 2 : 1);
+        for (size_t i = 0; i < crease_regions_snap_count(regions); i++) {
+            const crease_snap snap = crease_regions_snap_at(regions, i);
+            if (snap.kind == CREASE_SNAP_SYMMETRIC)
+                assert_int_equal(snap.region_count, 3);
+        }
+        assert_near(off_middle(regions, 1), 0, 1e-13);
+        assert_near(off_middle(regions, 0), asides[k], k == 0 ? 1e-13 : 0.005);
+        crease_regions_free(regions);
+        free_faces(&faces);
+    }
+    crease_context_free(context);
+}
+
+/* A roof of two slopes over a floor, between two gables. */
+static void the_slopes_of_a_roof_become_mirror_images(void **state)
+{
+    static const double turns[] = {0, 0.02}; /* radians; the errors are some 0.001 */
+    const double slope = 0.6, floor_axis[3] = {0, 0, 1};
+    crease_context *context = given_context();
+    for (int k = 0; k < 2; k++) {
+        const double other = slope + turns[k];
+        struct faces faces = given_faces(0.03);
+        add_rectangle(&faces, (double[]){-1, 0, 0}, x_axis, y_axis, 2, 1.5);
+        add_rectangle(&faces, (double[]){-1, 0, 0.5}, (double[]){cos(slope), 0, sin(slope)}, y_axis,
+            1.2, 1.5);
+        add_rectangle(&faces, (double[]){1, 0, 0.5}, (double[]){-cos(other), 0, sin(other)}, y_axis,
+            1.2, 1.5);
+        add_rectangle(&faces, (double[]){-1, -0.5, -1}, x_axis, floor_axis, 2, 1);
+        add_noise(&faces, 0.2);
+        crease_regions *regions = given_regions(context, &faces);
+        assert_int_equal(crease_regions_count(regions), 4);
+        assert_int_equal(crease_regions_snap(context, regions), CREASE_OK);
+        double cosines[2] = {0}, level[3] = {0};
+        int found = 0;
+        for (size_t i = 0; i < 4; i++) {
+            const crease_region region = crease_regions_at(regions, i);
+            if (fabs(region.parameters[5]) > 0.99)
+                memcpy(level, region.parameters + 3, sizeof level);
+        }
+        for (size_t i = 0; i < 4; i++) {
+            const crease_region region = crease_regions_at(regions, i);
+            const double cosine = fabs(crease_vector_dot(region.parameters + 3, level));
+            if (cosine > 0.5 && cosine < 0.99 && found < 2)
+                cosines[found++] = cosine;
+        }
+        assert_int_equal(found, 2);
+        assert_int_equal(count_of(regions, CREASE_SNAP_SYMMETRIC), k == 0 ? 1 : 0);
+        if (k == 0)
+            assert_near(cosines[0], cosines[1], 1e-13);
+        else
+            assert_true(fabs(cosines[0] - cosines[1]) > 0.005);
+        crease_regions_free(regions);
+        free_faces(&faces);
+    }
+    crease_context_free(context);
+}
+
+/* Values 1.0, 3.2 and 2.0 with variances 0.01, 0.03 and 0.02: the third in the middle. */
+static void relations_move_values_by_what_is_known_of_them(void **state)
+{
+    static const double at[] = {1.0, 3.2, 2.0}, variance[] = {0.01, 0.03, 0.02};
+    static const double middle[] = {0.5, 0.5, -1}, far_off[] = {1, -1, 0};
+    crease_context *context = given_context();
+    crease_joint joint;
+    assert_int_equal(crease_joint_make(context, 3, &joint), CREASE_OK);
+    for (int i = 0; i < 3; i++) {
+        joint.at[i] = at[i];
+        joint.covariance[4 * i] = variance[i];
+    }
+    assert_false(crease_joint_condition(&joint, far_off)); /* 2.2 of an error of 0.2 */
+    assert_near(joint.at[0], 1.0, 0);
+    assert_true(crease_joint_condition(&joint, middle));
+    /* off by 0.1 with variance 0.0025 + 0.0075 + 0.02 = 0.03 */
+    assert_near(joint.at[0], 1.0 - 0.1 * 0.005 / 0.03, 1e-15);
+    assert_near(joint.at[1], 3.2 - 0.1 * 0.015 / 0.03, 1e-15);
+    assert_near(joint.at[2], 2.0 + 0.1 * 0.02 / 0.03, 1e-15);
+    assert_true(crease_joint_condition(&joint, middle)); /* met already */
+    crease_joint_clear(&joint);
+    crease_context_free(context);
+}
+
 static void what_is_clearly_not_so_stays(void **state)
 {
     crease_context *context = given_context();
@@ -260,6 +391,9 @@ int main(void)
         cmocka_unit_test(the_sides_of_a_cube_become_exact),
         cmocka_unit_test(the_steps_of_a_shaft_become_coaxial),
         cmocka_unit_test(pins_of_one_radius_become_equal_and_others_do_not),
+        cmocka_unit_test(a_boss_in_the_middle_is_made_so_and_one_beside_it_is_not),
+        cmocka_unit_test(the_slopes_of_a_roof_become_mirror_images),
+        cmocka_unit_test(relations_move_values_by_what_is_known_of_them),
         cmocka_unit_test(what_is_clearly_not_so_stays),
         cmocka_unit_test(snapping_again_changes_nothing),
         cmocka_unit_test(values_within_their_errors_are_one),
