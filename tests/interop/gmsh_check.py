@@ -79,7 +79,7 @@ def run(*command):
 
 def counts_in(program, step):
     """Faces, edges and vertices."""
-    found = re.search(r"(\d+) faces, (\d+) edges, (\d+) vertices", run(program, "info", step))
+    found = re.search(r"faces: (\d+), edges: (\d+), vertices: (\d+)", run(program, "info", step))
     return [int(count) for count in found.groups()]
 
 
