@@ -13,6 +13,7 @@ enum { MOST_NODES = 64, STATIONS = 64, PASSES = 8 };
 
 static const double NODE = 8.0;         /* spacings between nodes, at least */
 static const double INWARD = 1.5;       /* standard deviations, from the outermost points */
+static const double MOST_SLANT = 0.3;   /* of the extent: as far as a side follows its border in */
 static const double LEAST_EXTENT = 0.4; /* of the mean one: borders that come closer are not
                                            followed, the sheet would be pinched */
 
@@ -125,6 +126,26 @@ static void set_bounds(
     }
 }
 
+/* A border that comes in by more than a little is no side: the side stays where the border is
+ * farthest out, and what it encloses is trimmed. */
+static void keep_straight(bounds *b)
+{
+    double lowest = INFINITY, inmost = -INFINITY, highest = -INFINITY, least = INFINITY;
+    for (size_t k = 0; k < b->count; k++) {
+        lowest = fmin(lowest, b->low[k]);
+        inmost = fmax(inmost, b->low[k]);
+        highest = fmax(highest, b->high[k]);
+        least = fmin(least, b->high[k]);
+    }
+    const double most = MOST_SLANT * (highest - lowest);
+    for (size_t k = 0; k < b->count; k++) {
+        if (inmost - lowest > most)
+            b->low[k] = lowest;
+        if (highest - least > most)
+            b->high[k] = highest;
+    }
+}
+
 static void range(const crease_spread *spread, const double *value, double ends[2])
 {
     ends[0] = INFINITY;
@@ -143,6 +164,7 @@ static void stretch_along(
     bounds b;
     set_nodes(ends, count, NODE * spread->spacing, &b);
     set_bounds(spread, uv, uv + 1, &b);
+    keep_straight(&b);
     double extent = 0.0;
     for (size_t k = 0; k < b.count; k++)
         extent += (b.high[k] - b.low[k]) / (double)b.count;
@@ -162,6 +184,7 @@ static void stretch_across(const crease_spread *spread, const double *line, size
     double outer[2] = {0.0, 0.0};
     set_nodes(domain, 2, NODE * spread->spacing, &b);
     set_bounds(spread, uv + 1, uv, &b);
+    keep_straight(&b);
     for (size_t k = 0; k < b.count; k++) {
         outer[0] += (line[0] - b.low[k]) / (double)b.count;
         outer[1] += (b.high[k] - line[lines - 1]) / (double)b.count;

@@ -2,7 +2,7 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* The first parameters of the points of a patch: a rectangle whose sides follow the borders of the
- * points, and whose lines u = constant follow the courses. */
+ * points as far as these hardly come in, and whose lines u = constant follow the courses. */
 #ifndef CREASE_FIT_CHART_H
 #define CREASE_FIT_CHART_H
 

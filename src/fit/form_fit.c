@@ -20,6 +20,9 @@ static const double GRIP = 0.01;
 /* And how strongly its borders are drawn to points beyond them. */
 static const double GRIP_OUTSIDE = 0.2;
 static const double LEAST_SAY = 1e-6; /* of the largest, for a control point to count */
+/* Control points of which the points say less than BARE of the mean are held STIFFER: they would
+ * follow the noise of the few points that reach them. */
+static const double BARE = 3e-3, STIFFER = 1e4;
 
 typedef struct equations {
     crease_form *form;
@@ -29,6 +32,7 @@ typedef struct equations {
     double *matrix; /* size x width, as LAPACK stores a lower band */
     double *right;  /* sides x size */
     double *say;    /* of each control point */
+    double bare;    /* who has less of it is held stiffer */
 } equations;
 
 static size_t index_of(const equations *e, size_t i, size_t j)
@@ -152,6 +156,11 @@ static bool is_line(const crease_layout_axis *axis, double t)
     return false;
 }
 
+static bool is_bare(const equations *e, const difference *d)
+{
+    return fmin(e->say[d->index[0]], fmin(e->say[d->index[1]], e->say[d->index[2]])) < e->bare;
+}
+
 /* Sum of the squares of the weights of all differences, or, with share, their matrix added. */
 static double bend_along(equations *e, int direction, const double *places, double share)
 {
@@ -173,7 +182,7 @@ static double bend_along(equations *e, int direction, const double *places, doub
             for (size_t k = 0; k < 3; k++)
                 sum += d.weight[k] * d.weight[k];
             if (share > 0.0)
-                add_difference(e, &d, share);
+                add_difference(e, &d, is_bare(e, &d) ? STIFFER * share : share);
         }
     }
     return sum;
@@ -189,6 +198,7 @@ static crease_status add_bending(crease_context *context, equations *e, double s
     double data = 0.0, bending = 0.0;
     for (size_t i = 0; i < basis->count[0] * basis->count[1]; i++)
         data += e->say[i];
+    e->bare = BARE * data / (double)(basis->count[0] * basis->count[1]);
     for (int pass = 0; pass < 2; pass++)
         for (int d = 0; d < 2; d++) {
             double *const at = places + (d ? basis->count[0] : 0);

@@ -16,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STATIONS = 32, LEAST_POINTS = 100, TRIES = 5 };
+enum { STATIONS = 1024, LEAST_POINTS = 100, TRIES = 5 };
 
 static const double DISC = 2.5;         /* spacings: radius of the disc that is rolled */
 static const double SPARSE_DISC = 2.0;  /* the same where points are sparse, in spacings there */
@@ -27,6 +27,7 @@ static const double LEAST_WIDTH = 0.75; /* spacings: narrower faces are left out
 
 /* ----------------------------------------------------------------------------------- plane -- */
 
+/* Beyond the points the surface may stretch. */
 static void set_scale(crease_trimming *task)
 {
     const crease_surface *const surface = task->sheet->surface;
@@ -34,18 +35,17 @@ static void set_scale(crease_trimming *task)
     double domain[2][2], squares[2] = {0.0, 0.0};
     for (int d = 0; d < 2; d++)
         crease_surface_domain(surface, d, domain[d]);
-    for (int i = 0; i < STATIONS; i++)
-        for (int k = 0; k < STATIONS; k++) {
-            double out[12];
-            const double uv[2] = {
-                domain[0][0] + (domain[0][1] - domain[0][0]) * (i + 0.5) / STATIONS,
-                domain[1][0] + (domain[1][1] - domain[1][0]) * (k + 0.5) / STATIONS};
-            crease_surface_evaluate(surface, uv, sides, 1, out);
-            squares[0] += crease_vector_dot(out + 6, out + 6);
-            squares[1] += crease_vector_dot(out + 3, out + 3);
-        }
+    const size_t count = task->sheet->parameters ? task->sheet->point_count : 0;
+    const size_t step = count / STATIONS + 1;
+    double stations = 0.0;
+    for (size_t i = 0; i < count; i += step, stations++) {
+        double out[12];
+        crease_surface_evaluate(surface, task->sheet->parameters + 2 * i, sides, 1, out);
+        squares[0] += crease_vector_dot(out + 6, out + 6);
+        squares[1] += crease_vector_dot(out + 3, out + 3);
+    }
     for (int d = 0; d < 2; d++) {
-        task->scale[d] = sqrt(squares[d] / (STATIONS * STATIONS));
+        task->scale[d] = squares[d] > 0.0 ? sqrt(squares[d] / stations) : 1.0;
         task->scatter.low[d] = domain[d][0] * task->scale[d];
         task->scatter.high[d] = domain[d][1] * task->scale[d];
     }
