@@ -30,6 +30,7 @@ static const double BLUR_REACH = 3.0;    /* more where the scanner has rounded t
 static const double SEED_DISTANCE = 0.6; /* a seed this near supports the chain */
 static const double SEED_CLAIM = 1.0;    /* a chain uses up the seeds within */
 static const double LONGEST_GAP = 4.0;
+static const double LONGEST_REPEAT = 6.0;   /* along a chain that is there already */
 static const double CLOSING_LENGTH = 3.0;   /* no ring is shorter */
 static const double CLOSING_DISTANCE = 0.3; /* a ring comes back to within */
 static const double SHORTEST_PART = 3.0;    /* of a chain that is sharp in parts */
@@ -46,6 +47,7 @@ struct seed {
     double place[3], tangent[3];
     double gap; /* spacing of the points around it */
     bool valid, used;
+    bool passed; /* by a chain that was taken */
 };
 
 /* The seeds of one pair of regions. */
@@ -183,14 +185,47 @@ static const struct seed *nearest_seed(
     return &bed->seeds[bed->tree->index[position]];
 }
 
-/* Walks from a seed along the intersection, forwards (1) or backwards (-1), while seeds support it,
- * and adds the points. Closes the chain when it comes back to the seed. */
-static crease_status walk(crease_context *context, const crease_survey *survey,
-    const struct bed *bed, const struct seed *start, double way, crease_chain *chain)
+/* A walk along an intersection. Points of the chain up to the last one that ... */
+struct walk {
+    double unsupported, repeated; /* lengths */
+    double gap;                   /* of the last seed beside */
+    size_t supported;             /* ... a seed is beside */
+    size_t fresh;                 /* ... and that no other chain has passed */
+};
+
+/* Whether to go on after a step to the chain's last point: chains that cross pass each other, one
+ * that comes upon another along the same line ends there. */
+static bool goes_on(const crease_survey *survey, const struct bed *bed, const crease_chain *chain,
+    double length, struct walk *walk)
 {
     const double s = survey->spacing;
-    double place[3], tangent[3], total = 0.0, unsupported = 0.0;
-    size_t supported = chain->count;
+    double away = 0.0;
+    const struct seed *const near =
+        nearest_seed(bed, chain->points + 3 * (chain->count - 1), &away);
+    const bool beside = away < SEED_DISTANCE * s;
+    walk->unsupported = beside ? 0.0 : walk->unsupported + length;
+    walk->supported = beside ? chain->count : walk->supported;
+    walk->gap = beside ? near->gap : walk->gap;
+    if (beside && !near->passed) {
+        walk->repeated = 0.0;
+        walk->fresh = chain->count;
+    } else {
+        walk->repeated += beside ? length : 0.0;
+    }
+    if (walk->repeated > LONGEST_REPEAT * s)
+        walk->supported = walk->fresh;
+    return walk->repeated <= LONGEST_REPEAT * s &&
+        walk->unsupported <= LONGEST_GAP * fmax(s, fmax(walk->gap, near->gap));
+}
+
+/* Walks forwards (1) or backwards (-1) while seeds support it, and adds the points. Closes the
+ * chain when it comes back to the seed. */
+static crease_status go(crease_context *context, const crease_survey *survey, const struct bed *bed,
+    const struct seed *start, double way, crease_chain *chain)
+{
+    const double s = survey->spacing;
+    double place[3], tangent[3], total = 0.0;
+    struct walk walk = {.gap = start->gap, .supported = chain->count, .fresh = chain->count};
     memcpy(place, start->place, sizeof place);
     for (int c = 0; c < 3; c++)
         tangent[c] = way * start->tangent[c];
@@ -209,19 +244,16 @@ static crease_status walk(crease_context *context, const crease_survey *survey,
         const crease_status status = crease_chain_append(context, chain, place, bend);
         if (status != CREASE_OK)
             return status;
-        double away = 0.0;
-        const struct seed *const near = nearest_seed(bed, place, &away);
-        unsupported = away < SEED_DISTANCE * s ? 0.0 : unsupported + length;
-        supported = unsupported > 0.0 ? supported : chain->count;
-        if (unsupported > LONGEST_GAP * fmax(s, near->gap))
+        if (!goes_on(survey, bed, chain, length, &walk))
             break;
     }
-    chain->count = supported;
+    chain->count = walk.supported;
     return CREASE_OK;
 }
 
-/* Marks the seeds along a chain as used; returns how many were not before. */
-static size_t claim(const struct bed *bed, const crease_chain *chain, double radius)
+/* Marks the seeds along a chain as used, and as passed when the chain is taken; returns how many
+ * were not used before. */
+static size_t claim(const struct bed *bed, const crease_chain *chain, double radius, bool taken)
 {
     size_t fresh = 0;
     for (size_t i = 0; i < chain->count; i++) {
@@ -231,6 +263,7 @@ static size_t claim(const struct bed *bed, const crease_chain *chain, double rad
         for (size_t k = 0; k < found; k++) {
             fresh += !bed->seeds[bed->found[k]].used;
             bed->seeds[bed->found[k]].used = true;
+            bed->seeds[bed->found[k]].passed |= taken;
         }
     }
     return fresh;
@@ -286,16 +319,19 @@ static crease_status trace_from(crease_context *context, const crease_survey *su
     const double bend = crease_support_bend(survey, bed->regions, start->place, start->tangent);
     crease_status status = crease_chain_append(context, &chain, start->place, bend);
     if (status == CREASE_OK)
-        status = walk(context, survey, bed, start, 1.0, &chain);
+        status = go(context, survey, bed, start, 1.0, &chain);
     if (status == CREASE_OK && !chain.closed) {
         crease_chain_reverse(&chain);
-        status = walk(context, survey, bed, start, -1.0, &chain);
+        status = go(context, survey, bed, start, -1.0, &chain);
     }
     if (status == CREASE_OK) {
         start->used = true;
-        const size_t support = 1 + claim(bed, &chain, SEED_CLAIM * survey->spacing);
-        if (support >= LEAST_SUPPORT && chain.count >= LEAST_POINTS)
+        const double radius = SEED_CLAIM * survey->spacing;
+        const size_t support = 1 + claim(bed, &chain, radius, false);
+        if (support >= LEAST_SUPPORT && chain.count >= LEAST_POINTS) {
+            claim(bed, &chain, radius, true);
             status = take_sharp(context, survey, &chain, chains);
+        }
     }
     crease_chain_clear(&chain);
     return status;

@@ -480,6 +480,48 @@ static void given_edge_without_points_when_found_then_it_is_bridged(void **state
     end_world(&w);
 }
 
+static bool outside_bay(const double *p, int32_t label)
+{
+    const double angle = atan2(p[1], p[0]);
+    return p[2] < 0.5 || angle < 0 || angle > 1;
+}
+
+static double length_between(const crease_topology *t, uint32_t a, uint32_t b)
+{
+    double length = 0;
+    for (size_t e = 0; e < t->edge_count; e++)
+        for (size_t i = 1; i < t->edges[e].count; i++)
+            if (t->edges[e].regions[0] == a && t->edges[e].regions[1] == b)
+                length += crease_vector_distance(
+                    t->edges[e].points + 3 * i, t->edges[e].points + 3 * (i - 1));
+    return length;
+}
+
+/* A rim that goes on from the few points in a bay to those around it, goes on the other way as
+ * well.
+ */
+static void given_few_points_in_a_bay_when_found_then_no_edge_is_there_twice(void **state)
+{
+    const given_body rod = given_rod(1, 1);
+    given_points points = keep(given_sample(&rod, S, 0, 5), outside_bay);
+    const size_t dense = points.count;
+    for (int i = 0; i < 18; i++) {
+        const double angle = 0.375 + 0.11 * (i % 3) + 0.1 * S * (i / 3);
+        const double c = cos(angle), d = sin(angle);
+        given_point(&points, (double[]){c, d, 1 - 0.3 * S}, 0);
+        given_point(&points, (double[]){(1 - 0.3 * S) * c, (1 - 0.3 * S) * d, 1}, 1);
+    }
+    world w = {given_context(), NULL, NULL};
+    w.regions = given_regions(w.context, &rod, points, S, 0);
+    for (size_t i = 0; i < dense; i++)
+        w.regions->noise->local_spacing[i] = (float)(1.4 * S);
+    assert_int_equal(crease_topology_find(w.context, w.regions, false, &w.topology), CREASE_OK);
+    assert_true(fabs(length_between(w.topology, 0, 1) / (2 * acos(-1)) - 1) < 0.01);
+    for (size_t r = 0; r < w.topology->region_count; r++)
+        assert_false(w.topology->open[r]);
+    end_world(&w);
+}
+
 static bool not_on_bottom(const double *p, int32_t label)
 {
     return label != 2;
@@ -637,6 +679,7 @@ int main(void)
         cmocka_unit_test(given_pieces_around_a_hole_when_found_then_they_meet_in_it),
         cmocka_unit_test(given_corner_without_points_when_found_then_it_is_where_edges_meet),
         cmocka_unit_test(given_edge_without_points_when_found_then_it_is_bridged),
+        cmocka_unit_test(given_few_points_in_a_bay_when_found_then_no_edge_is_there_twice),
         cmocka_unit_test(given_face_without_points_when_found_then_neighbours_are_open),
         cmocka_unit_test(given_no_regions_when_found_then_nothing),
         cmocka_unit_test(given_noise_when_found_then_the_same_topology),
