@@ -252,7 +252,7 @@ static crease_status bridge(crease_graph *graph, const struct gap *gap)
     edge.smooth = edge.loose = !crossed;
     memcpy(edge.vertices, gap->vertices, sizeof edge.vertices);
     crease_status status = lay(graph, gap, &edge);
-    if (status == CREASE_OK)
+    if (status == CREASE_OK && !(crossed && crease_edge_is_wild(&edge)))
         status =
             is_there(graph, &edge) ? retract_leaves(graph, gap) : crease_graph_take(graph, &edge);
     crease_edge_clear(&edge);

@@ -13,6 +13,7 @@
 #include <string.h>
 
 static const double PROJECT_REACH = 3.0; /* spacings */
+static const double WILD = 0.707;        /* cosine of 45 degrees */
 
 /* ---------------------------------------------------------------------------------- edges -- */
 
@@ -109,6 +110,23 @@ double crease_edge_distance(const crease_edge *edge, const double place[3])
         nearest = fmin(
             nearest, segment_distance(edge->points + 3 * i, edge->points + 3 * (i + 1), place));
     return nearest;
+}
+
+bool crease_edge_is_wild(const crease_edge *edge)
+{
+    for (size_t i = 2; i + 2 < edge->count; i++) {
+        const double *const p = edge->points + 3 * i;
+        double before[3], after[3];
+        for (int c = 0; c < 3; c++) {
+            before[c] = p[c] - p[c - 3];
+            after[c] = p[c + 3] - p[c];
+        }
+        crease_vector_normalise(before);
+        crease_vector_normalise(after);
+        if (crease_vector_dot(before, after) < WILD)
+            return true;
+    }
+    return false;
 }
 
 void crease_edge_clear(crease_edge *edge)

@@ -43,6 +43,9 @@ bool crease_edge_has(const crease_edge *edge, uint32_t region);
 bool crease_edge_common(const uint32_t a[2], const uint32_t b[2], uint32_t out[3]);
 /* Distance of a place from the edge. */
 double crease_edge_distance(const crease_edge *edge, const double place[3]);
+/* Whether the edge turns more from step to step than the common curve of two surfaces that cut each
+ * other does: they wave around each other. Its ends may be beside that. */
+bool crease_edge_is_wild(const crease_edge *edge);
 void crease_edge_clear(crease_edge *edge);
 
 /* Ends of edges of a region at a vertex; of all regions when region is negative. */

@@ -145,10 +145,14 @@ static bool lay_on_curve(const crease_graph *graph, crease_edge *edge)
 }
 
 /* The same where they do so, for surfaces that join smoothly on one part of the way and with an
- * angle on another. */
-static void lay_on_part(const crease_graph *graph, crease_edge *edge)
+ * angle on another. Where they wave around each other the line stays as it is. */
+static crease_status lay_on_part(const crease_graph *graph, crease_edge *edge)
 {
     const double reach = REACH * graph->survey->spacing;
+    double *const kept =
+        crease_duplicate(graph->context, edge->points, edge->count, 3 * sizeof *kept);
+    if (!kept)
+        return CREASE_ERROR_NO_MEMORY;
     for (size_t i = 1; i + 1 < edge->count; i++) {
         double *const place = edge->points + 3 * i, first[3], second[3];
         crease_graph_distance(graph, edge->regions[0], place, first);
@@ -156,19 +160,27 @@ static void lay_on_part(const crease_graph *graph, crease_edge *edge)
         if (fabs(crease_vector_dot(first, second)) < CROSSING_COSINE)
             crease_graph_project(graph, edge->regions, reach, place);
     }
+    if (crease_edge_is_wild(edge))
+        memcpy(edge->points, kept, 3 * edge->count * sizeof *kept);
+    free(kept);
+    return CREASE_OK;
 }
 
-static bool lay(const crease_graph *graph, crease_edge *edge)
+static crease_status lay(const crease_graph *graph, crease_edge *edge, bool *found)
 {
     double cosines[2];
+    crease_status status = CREASE_OK;
     crease_edge_smooth(edge, ROUNDS);
     angles_along(graph, edge, cosines);
-    if (cosines[0] < CROSSING_COSINE)
-        return lay_on_curve(graph, edge);
+    if (cosines[0] < CROSSING_COSINE) {
+        *found = lay_on_curve(graph, edge);
+        return status;
+    }
     if (cosines[1] < SMOOTH_COSINE)
-        lay_on_part(graph, edge);
+        status = lay_on_part(graph, edge);
     edge->smooth = edge->loose = true;
-    return crease_edge_lay_midway(graph, edge);
+    *found = status == CREASE_OK && crease_edge_lay_midway(graph, edge);
+    return status;
 }
 
 crease_status crease_trail_lay(const crease_graph *graph, const crease_loose *loose,
@@ -182,7 +194,8 @@ crease_status crease_trail_lay(const crease_graph *graph, const crease_loose *lo
     crease_status status = begin_search(graph, loose, vertices, &search);
     if (status == CREASE_OK && find_way(&search, graph->survey->spacing)) {
         status = take_way(graph, &search, out);
-        *found = status == CREASE_OK && lay(graph, out);
+        if (status == CREASE_OK)
+            status = lay(graph, out, found);
     }
     clear_search(&search);
     memcpy(out->vertices, vertices, sizeof out->vertices);

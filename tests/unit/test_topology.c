@@ -4,7 +4,7 @@
 /* Topology of bodies whose models are exact, so that every number is known. */
 #include "given_models.h"
 
-#include "model/topology.h"
+#include "model/graph.h"
 
 static const double S = 1.0 / 16;
 
@@ -522,6 +522,24 @@ static void given_few_points_in_a_bay_when_found_then_no_edge_is_there_twice(voi
     end_world(&w);
 }
 
+/* Half a circle by steps of half a spacing, its ends beside it; and the same with a point
+ * that was laid farther ahead than the next. */
+static void given_steps_that_go_back_when_looked_at_then_the_edge_is_wild(void **state)
+{
+    crease_context *context = given_context();
+    crease_edge edge = crease_edge_between(0, 1);
+    for (int i = 0; i <= 24; i++) {
+        const double angle = i / 8.0, aside = i % 24 == 0 ? 2 : 0;
+        const double place[3] = {4 * cos(angle), 4 * sin(angle), aside};
+        assert_int_equal(crease_edge_append(context, &edge, place), CREASE_OK);
+    }
+    assert_false(crease_edge_is_wild(&edge));
+    memcpy(edge.points + 3 * 12, edge.points + 3 * 14, 3 * sizeof(double));
+    assert_true(crease_edge_is_wild(&edge));
+    crease_edge_clear(&edge);
+    crease_context_free(context);
+}
+
 static bool not_on_bottom(const double *p, int32_t label)
 {
     return label != 2;
@@ -680,6 +698,7 @@ int main(void)
         cmocka_unit_test(given_corner_without_points_when_found_then_it_is_where_edges_meet),
         cmocka_unit_test(given_edge_without_points_when_found_then_it_is_bridged),
         cmocka_unit_test(given_few_points_in_a_bay_when_found_then_no_edge_is_there_twice),
+        cmocka_unit_test(given_steps_that_go_back_when_looked_at_then_the_edge_is_wild),
         cmocka_unit_test(given_face_without_points_when_found_then_neighbours_are_open),
         cmocka_unit_test(given_no_regions_when_found_then_nothing),
         cmocka_unit_test(given_noise_when_found_then_the_same_topology),
