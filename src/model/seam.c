@@ -7,6 +7,7 @@
 #include "base/vector.h"
 #include "crease/intersect.h"
 #include "model/contact.h"
+#include "model/ring.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -318,9 +319,11 @@ static crease_status seams_of(struct seam *seam)
         any = true;
         status = seam_from(seam, (int32_t)v);
     }
-    if (!any && status == CREASE_OK && seam->loose->count > LEAST_RING_LINKS)
-        status = find_ring(seam);
-    return status;
+    if (any || status != CREASE_OK || seam->loose->count <= LEAST_RING_LINKS)
+        return status;
+    const size_t before = t->edge_count;
+    status = find_ring(seam);
+    return status == CREASE_OK ? crease_ring_mend(seam->graph, seam->loose, before) : status;
 }
 
 crease_status crease_seams_find(crease_graph *graph, const crease_links *links)

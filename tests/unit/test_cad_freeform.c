@@ -150,6 +150,21 @@ static void given_a_dome_then_two_faces(void **state)
     end(&s);
 }
 
+/* A body without any edge: two halves that are nearly one surface where they meet. */
+static void given_an_ellipsoid_then_two_halves_with_a_common_ring(void **state)
+{
+    const double pi = acos(-1.0), axes[3] = {0.6, 0.4, 0.35};
+    vase v = {.points = malloc(AROUND * AROUND * sizeof *v.points)};
+    for (int i = 0; i < 5000; i++) {
+        const double u = 2 * pi * draw(&v, 1), z = 2 * draw(&v, 2) - 1, r = sqrt(1 - z * z);
+        add(&v, (double[]){axes[0] * r * cos(u), axes[1] * r * sin(u), axes[2] * z},
+            (double[]){0, 0, 1});
+    }
+    scene s = when_divided(v);
+    then_a_solid(&s, 2, 4 * pi / 3 * axes[0] * axes[1] * axes[2]);
+    end(&s);
+}
+
 /* It turns too far for a height over a plane. */
 static void given_most_of_a_wall_then_one_free_form(void **state)
 {
@@ -166,6 +181,7 @@ int main(void)
         cmocka_unit_test(given_a_vase_then_its_wall_is_one_face),
         cmocka_unit_test(given_a_noisy_vase_then_its_wall_is_one_region),
         cmocka_unit_test(given_a_dome_then_two_faces),
+        cmocka_unit_test(given_an_ellipsoid_then_two_halves_with_a_common_ring),
         cmocka_unit_test(given_most_of_a_wall_then_one_free_form),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
