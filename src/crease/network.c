@@ -12,6 +12,7 @@
 #include "crease/junction.h"
 #include "crease/precision.h"
 #include "crease/profile.h"
+#include "crease/stub.h"
 #include "crease/support.h"
 
 #include <stdlib.h>
@@ -21,6 +22,7 @@
 static const double CURVE_TOLERANCE = 0.01;
 static const double LEAD_IN = 3.0;    /* how far from a corner a curve bends towards it */
 static const double EDGE_WIDTH = 3.0; /* where edges disturb the spacing */
+static const double SHORTEST = 1.0;   /* crease that ends on its own */
 
 static const double DEGREE = 3.14159265358979323846 / 180.0;
 
@@ -180,8 +182,10 @@ static crease_status search(
         status = crease_profile_prune(context, survey, &chains);
     if (status == CREASE_OK)
         status = crease_junctions_find(context, survey, &chains, &corners);
-    if (status == CREASE_OK)
+    if (status == CREASE_OK) {
+        crease_stubs_drop(&chains, &corners, SHORTEST * survey->spacing);
         status = make_curves(context, survey, &chains, &corners, network);
+    }
     if (status == CREASE_OK)
         status = take_corners(context, &corners, network);
     if (status == CREASE_OK)

@@ -5,6 +5,7 @@
 #include "given_models.h"
 
 #include "base/frame.h"
+#include "crease/stub.h"
 
 static const double S = 1.0 / 24;
 
@@ -666,6 +667,53 @@ static void given_surfaces_that_cross_when_found_then_no_crease(void **state)
     }
 }
 
+/* A chain along x from 0.1 to some length less 0.1; ends at these corners. */
+static crease_chain given_chain(crease_context *context, double length, int32_t a, int32_t b)
+{
+    crease_chain chain = crease_chain_between(0, 1);
+    for (int i = 0; i < 5; i++) {
+        const double place[3] = {0.1 + (length - 0.2) * i / 4, 0, 0};
+        assert_int_equal(crease_chain_append(context, &chain, place, 1), CREASE_OK);
+    }
+    chain.corners[0] = a;
+    chain.corners[1] = b;
+    return chain;
+}
+
+static void given_stubs_when_dropped_then_chains_that_lead_on_stay(void **state)
+{
+    crease_context *context = given_context();
+    /* Corner 0: of the short loop alone; 1: three ends; 2: two ends, at x = 0.9; 3: an end of a
+     * long chain alone; 4: of a stub alone. */
+    crease_junction places[5] = {{.valence = 2}, {.valence = 3}, {.place = {0.9}, .valence = 2},
+        {.place = {7}, .valence = 1}, {.place = {0.9}, .valence = 1}};
+    crease_junctions corners = {5, places};
+    crease_chain given[] = {given_chain(context, 0.4, 0, 0), given_chain(context, 0.9, 1, 2),
+        given_chain(context, 7, 2, 3), given_chain(context, 0.9, 1, 4),
+        given_chain(context, 0.5, CREASE_NO_CORNER, CREASE_NO_CORNER),
+        given_chain(context, 0.6, CREASE_NO_CORNER, CREASE_NO_CORNER),
+        given_chain(context, 1.3, 1, CREASE_NO_CORNER)};
+    given[5].closed = true;
+    crease_chains chains = {0};
+    for (size_t i = 0; i < sizeof given / sizeof *given; i++)
+        assert_int_equal(crease_chains_take(context, &chains, &given[i]), CREASE_OK);
+
+    crease_stubs_drop(&chains, &corners, 1.0);
+
+    assert_int_equal(chains.count, 4);
+    assert_int_equal(corners.count, 3);
+    const int32_t expected[4][2] = {{0, 1}, {1, 2}, {CREASE_NO_CORNER, CREASE_NO_CORNER}, {0, -1}};
+    for (size_t i = 0; i < 4; i++)
+        for (int end = 0; end < 2; end++)
+            assert_int_equal(chains.items[i].corners[end], expected[i][end]);
+    assert_int_equal(corners.items[0].valence, 2);
+    assert_int_equal(corners.items[2].valence, 1);
+    assert_near(corners.items[2].place[0], 7, 0);
+    assert_true(chains.items[2].closed);
+    crease_chains_clear(&chains);
+    crease_context_free(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -693,6 +741,7 @@ int main(void)
         cmocka_unit_test(given_cancelled_context_when_found_then_cancelled),
         cmocka_unit_test(given_rib_on_plate_when_found_then_crease_at_its_foot),
         cmocka_unit_test(given_surfaces_that_cross_when_found_then_no_crease),
+        cmocka_unit_test(given_stubs_when_dropped_then_chains_that_lead_on_stay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
