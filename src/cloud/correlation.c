@@ -1,47 +1,92 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* Noise that neighbouring points share, as scanners have it along their lines and depth cameras on
- * their terraces. A quadric through a small window follows it, and what it leaves says too little
- * of it. So quadrics are fitted to growing windows around some of the points:
+/* Noise that neighbouring points share, as scanners have it along their lines
+ * and depth cameras on their terraces. A quadric through a small window follows
+ * it, and what it leaves says too little of it. So quadrics are fitted to
+ * growing windows around some of the points:
  *
  * - Independent noise leaves the same variance at every size.
- * - Shared noise leaves more and more, but ever less is added, once the windows are larger than the
- *   stretches that err alike.
- * - A surface that is no quadric leaves more and more too, but ever more is added: the cubic terms
- *   alone eight times as much whenever the number of points doubles.
+ * - Shared noise leaves more and more, but ever less is added, once the windows
+ * are larger than the stretches that err alike.
+ * - A surface that is no quadric leaves more and more too, but ever more is
+ * added: the cubic terms alone eight times as much whenever the number of
+ * points doubles.
  *
- * - The other side of a thin wall comes at once, and leaves what no noise leaves.
+ * - The other side of a thin wall comes at once, and leaves what no noise
+ * leaves. Where heights over the smallest window's plane have a gap, the window
+ * sees it and says nothing.
  *
- * Where the variance grows from the first size to the second, and then at a falling rate, the last
- * such size tells the noise. How many points err alike follows from what a fit takes out of the
- * mean square of the residuals: each of its p parameters a share of (points alike) / (points). */
+ * Where the variance grows from the first size to the second, and then at a
+ * falling rate, the last such size tells the noise. How many points err alike
+ * follows from what a fit takes out of the mean square of the residuals: each
+ * of its p parameters a share of (points alike) / (points). */
 #include "cloud/correlation.h"
 
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/select.h"
+#include "base/vector.h"
 #include "cloud/quadric.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { WINDOWS = 500, SIZES = 4, LEAST = 24, MOST = LEAST << (SIZES - 1), GRAIN = 16 };
 
 static const double quantile = 0.3;    /* of the variances of windows of one size */
 static const double deviate = -0.5244; /* that quantile of a normal distribution */
 static const double growing = 1.3;     /* least ratio of the variances of the first two sizes */
-static const double lasting = 3.0;  /* most added by twice the size, over what was added so far */
-static const double at_once = 8.0;  /* more than the eightfold comes of no smooth surface ... */
-static const double roughest = 0.4; /* ... and a greater deviation, in spacings, of no noise */
-static const double widest = 0.25;  /* of all points in one window */
+static const double lasting = 3.0;   /* most added by twice the size, over what was added so far */
+static const double at_once = 8.0;   /* more than the eightfold comes of no smooth surface ... */
+static const double roughest = 0.4;  /* ... and a greater deviation, in spacings, of no noise */
+static const double gap = 1.5;       /* spacings between heights that no one surface leaves empty */
+static const double own_share = 0.6; /* of the points of a window, at least, on its middle's wall */
+static const double widest = 0.25;   /* of all points in one window */
 
 typedef struct survey {
     const double *points;
     size_t count, windows;
+    double spacing;
     uint32_t *near;           /* windows x (MOST + 1) */
-    double *variances[SIZES]; /* of the residuals of each window, by degrees of freedom */
+    double *variances[SIZES]; /* of the residuals of each window, by degrees of
+                                 freedom */
 } survey;
+
+static int compare(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return x < y ? -1 : x > y;
+}
+
+/* Keeps the points of the wall that the window's middle is on: in order of
+ * their heights over the smallest window's plane, those up to the first gap.
+ * Returns their number. */
+static int keep_own_wall(double (*points)[3], int count, double spacing)
+{
+    double middle[LEAST + 1][3], centre[3], values[3], axes[9], heights[MOST + 1];
+    memcpy(middle, points, sizeof middle);
+    crease_quadric_plane(middle, LEAST + 1, centre, values, axes);
+    for (int j = 0; j < count; j++)
+        heights[j] = crease_vector_dot(points[j], axes);
+    qsort(heights, (size_t)count, sizeof *heights, compare);
+    double low = -INFINITY, high = INFINITY; /* the first point's height is 0 */
+    for (int j = 1; j < count; j++)
+        if (heights[j] - heights[j - 1] > gap * spacing) {
+            if (heights[j] <= 0.0)
+                low = heights[j];
+            else if (heights[j - 1] < high && heights[j - 1] >= 0.0)
+                high = heights[j - 1];
+        }
+    int kept = 0;
+    for (int j = 0; j < count; j++) {
+        const double height = crease_vector_dot(points[j], axes);
+        if (height >= low && height <= high)
+            memmove(points[kept++], points[j], sizeof points[j]);
+    }
+    return kept;
+}
 
 static double residual_variance(const survey *run, const uint32_t *near, int count)
 {
@@ -50,6 +95,12 @@ static double residual_variance(const survey *run, const uint32_t *near, int cou
     for (int j = 0; j < count; j++)
         for (size_t c = 0; c < 3; c++)
             points[j][c] = run->points[3 * (size_t)near[j] + c] - own[c];
+    if (count > LEAST + 1) {
+        const int kept = keep_own_wall(points, count, run->spacing);
+        if (kept < own_share * count)
+            return INFINITY;
+        count = kept;
+    }
     crease_quadric_plane(points, count, centre, values, axes);
     const double scale = sqrt(values[2] / count);
     const double squares =
@@ -147,7 +198,10 @@ crease_status crease_correlation_estimate(crease_context *context, const double 
     *out = (crease_correlation){.points = 1.0};
     if (MOST + 1 > widest * (double)count)
         return CREASE_OK;
-    survey run = {.points = points, .count = count, .windows = count < WINDOWS ? count : WINDOWS};
+    survey run = {.points = points,
+        .count = count,
+        .spacing = spacing,
+        .windows = count < WINDOWS ? count : WINDOWS};
     run.near = crease_allocate(context, run.windows, (MOST + 1) * sizeof *run.near);
     double *const variances = crease_allocate(context, run.windows, SIZES * sizeof *variances);
     const crease_status status = look(context, &run, variances);
