@@ -14,6 +14,7 @@
 static const double EXACT = 1e-9;                  /* cosine of a right angle that was set */
 static const double OBLIQUE[2] = {0.05, 0.998749}; /* cosine and sine of the least angle to either:
                                                       3 degrees */
+static const double NEAR_COSINE = 0.99;            /* of an image to what it may be: 8 degrees */
 
 void crease_mirror_vector(const double normal[3], const double v[3], double out[3])
 {
@@ -74,11 +75,12 @@ static bool pair_up(crease_snapping *all, size_t a, size_t b, const double norma
     double image[3], mean[3], before[2][3];
     const double share[2] = {weight(all, a), weight(all, b)};
     crease_mirror_vector(normal, all->axis_of[b], image);
-    const double sign = crease_vector_dot(image, all->axis_of[a]) < 0.0 ? -1.0 : 1.0;
+    const double cosine = crease_vector_dot(image, all->axis_of[a]);
+    const double sign = cosine < 0.0 ? -1.0 : 1.0;
+    if (fabs(cosine) < NEAR_COSINE)
+        return false;
     for (int c = 0; c < 3; c++)
         mean[c] = share[0] * all->axis_of[a][c] + sign * share[1] * image[c];
-    if (crease_vector_length(mean) < EXACT)
-        return false;
     keep_upright(all, a, NULL, mean);
     keep_upright(all, b, normal, mean);
     crease_vector_normalise(mean);
