@@ -148,6 +148,7 @@ static crease_correlation judge(const survey *run, double sigma2, double spacing
     crease_correlation found = {.points = 1.0};
     double before = fmax(variance_at(run, 0), sigma2), alike = 0.0;
     const double first = before;
+    int last = 0;
     for (int size = 1; size < SIZES; size++) {
         const double now = variance_at(run, size), added = before - first;
         if (!isfinite(now) || (size == 1 ? now < growing * first : now - first > lasting * added))
@@ -158,7 +159,10 @@ static crease_correlation judge(const survey *run, double sigma2, double spacing
         alike = fmax(alike, taken * (LEAST << size) / CREASE_QUADRIC_TERMS);
         found.sigma2 = fmax(found.sigma2, now);
         before = now;
+        last = size;
     }
+    if (last == 1 && found.sigma2 > at_once * first)
+        found.sigma2 = 0.0; /* narrow faces: most larger windows lie across an edge */
     if (found.sigma2 > 0.0)
         found.points = fmax(alike / found.sigma2, 1.0);
     return found;

@@ -139,6 +139,29 @@ static void walls_a_few_spacings_thick_are_no_shared_noise(void **state)
     crease_context_free(context);
 }
 
+/* Bars so narrow that larger windows lie across their edges. */
+static void narrow_faces_without_noise_have_none(void **state)
+{
+    static const double widths[] = {8.5, 9, 10, 11, 12, 14};
+    crease_context *context = given_context();
+    for (int i = 0; i < 6; i++) {
+        const double width = 0.02 * widths[i];
+        struct faces faces = given_faces(0.02);
+        for (int side = 0; side < 2; side++) {
+            add_rectangle(&faces, (double[]){0, 0, width * side}, (double[]){1, 0, 0},
+                (double[]){0, 1, 0}, 1, width);
+            add_rectangle(&faces, (double[]){0, width * side, 0}, (double[]){1, 0, 0},
+                (double[]){0, 0, 1}, 1, width);
+        }
+        crease_noise *noise = given_noise(context, &faces);
+        if (!(crease_noise_sigma(noise) < 0.04 * 0.02))
+            fail_msg("bar %g wide: %g", widths[i], crease_noise_sigma(noise) / 0.02);
+        crease_noise_free(noise);
+        free_faces(&faces);
+    }
+    crease_context_free(context);
+}
+
 static void independent_errors_are_not_taken_for_shared_ones(void **state)
 {
     static struct faces (*const shapes[])(double) = {given_square, given_tube, given_cube};
@@ -351,6 +374,7 @@ int main(void)
         cmocka_unit_test(normals_beside_edges_are_those_of_the_own_side),
         cmocka_unit_test(both_sides_of_a_thin_wall_are_told_apart),
         cmocka_unit_test(walls_a_few_spacings_thick_are_no_shared_noise),
+        cmocka_unit_test(narrow_faces_without_noise_have_none),
         cmocka_unit_test(independent_errors_are_not_taken_for_shared_ones),
         cmocka_unit_test(errors_along_scan_lines_are_found),
         cmocka_unit_test(terraces_of_rounded_depths_are_no_thin_walls),
