@@ -6,6 +6,7 @@
 #include "given.h"
 
 #include "crease/crease_stream.h"
+#include "stream/overview.h"
 
 #include <unistd.h>
 
@@ -309,6 +310,83 @@ static void given_allocations_that_fail_then_nothing_is_lost(void **state)
     crease_context_free(context);
 }
 
+/* What the labels of all of a cloud's points are, the sample's own among them. */
+static crease_found labels_of(
+    crease_context *context, crease_labelling *labelling, const crease_cloud *cloud)
+{
+    const size_t count = crease_cloud_count(cloud);
+    crease_tree *tree = NULL;
+    crease_found found;
+    uint8_t *own = malloc(count);
+    assert_non_null(own);
+    memset(own, 1, count);
+    const crease_piece piece = {count, crease_cloud_points(cloud), NULL, own};
+    assert_int_equal(
+        crease_tree_create(context, crease_cloud_points(cloud), count, &tree), CREASE_OK);
+    assert_int_equal(crease_found_create(context, count, &found), CREASE_OK);
+    assert_int_equal(crease_label(context, labelling, &piece, tree, &found), CREASE_OK);
+    crease_tree_free(tree);
+    free(own);
+    return found;
+}
+
+static void expect_same_labels(crease_context *context, const crease_cloud *cloud,
+    crease_labelling *one, crease_labelling *other)
+{
+    const size_t count = crease_cloud_count(cloud), regions = one->regions->region_count;
+    crease_found a = labels_of(context, one, cloud), b = labels_of(context, other, cloud);
+    size_t features = 0;
+    for (size_t i = 0; i < count; i++)
+        features += a.features[i];
+    assert_in_range(features, 1, count - 1);
+    assert_memory_equal(a.regions, b.regions, count * sizeof *a.regions);
+    assert_memory_equal(a.distances, b.distances, count * sizeof *a.distances);
+    assert_memory_equal(a.features, b.features, count);
+    assert_int_equal(other->regions->region_count, regions);
+    assert_memory_equal(one->sizes, other->sizes, regions * sizeof *one->sizes);
+    assert_memory_equal(one->squares, other->squares, regions * sizeof *one->squares);
+    crease_found_free(&a);
+    crease_found_free(&b);
+}
+
+static void given_labelling_as_bytes_then_another_process_labels_alike(void **state)
+{
+    crease_context *context = given_context_with_threads(1);
+    crease_cloud *cloud = given_scan(context, 3000, 0.01), *sample = NULL;
+    crease_overview overview = {0};
+    crease_regions *regions = NULL;
+    crease_network *network = NULL;
+    crease_labelling other;
+    crease_status status = CREASE_ERROR_NO_MEMORY;
+    size_t total = 0, size = 0;
+    char *bytes = NULL;
+    assert_int_equal(
+        crease_cloud_read_sample(context, input, NULL, 1500, &sample, &total), CREASE_OK);
+    assert_int_equal(crease_regions_find(context, sample, NULL, &overview.regions), CREASE_OK);
+    assert_int_equal(
+        crease_network_find(context, overview.regions, NULL, &overview.network), CREASE_OK);
+    assert_int_equal(crease_labelling_create(
+                         context, overview.regions, overview.network, total, &overview.labelling),
+        CREASE_OK);
+    assert_int_equal(crease_labelling_pack(context, &overview.labelling, &bytes, &size), CREASE_OK);
+    for (long n = 0; status != CREASE_OK; n++) {
+        crease_context_fail_allocation(context, n);
+        status = crease_labelling_unpack(context, bytes, &regions, &network, &other);
+        crease_context_fail_allocation(context, -1);
+        assert_true(n < 10000 && (status == CREASE_OK || status == CREASE_ERROR_NO_MEMORY));
+        assert_int_equal(regions != NULL, status == CREASE_OK);
+    }
+    expect_same_labels(context, cloud, &overview.labelling, &other);
+    crease_labelling_free(&other);
+    crease_network_free(network);
+    crease_regions_free(regions);
+    free(bytes);
+    crease_overview_free(&overview);
+    crease_cloud_free(sample);
+    crease_cloud_free(cloud);
+    crease_context_free(context);
+}
+
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 #define SANITIZED 1 /* no limit is kept then */
@@ -350,6 +428,7 @@ int main(void)
         cmocka_unit_test(given_a_sample_then_it_is_of_the_file_from_beginning_to_end),
         cmocka_unit_test(given_what_cannot_be_then_a_status_and_nothing_is_left),
         cmocka_unit_test(given_allocations_that_fail_then_nothing_is_lost),
+        cmocka_unit_test(given_labelling_as_bytes_then_another_process_labels_alike),
         cmocka_unit_test(given_a_limit_of_memory_then_what_is_beyond_is_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
