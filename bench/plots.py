@@ -14,14 +14,19 @@ import matplotlib.pyplot as plt
 COLORS = ['#c0392b', '#1f6fb2', '#5fa8dc', '#2e8b57', '#8fc79a', '#8e5ea2', '#c9a6d8', '#b8860b']
 
 
-def picture(path, lines, x, y, logarithmic='', ticks=None):
-    """lines: {name: (xs, ys)}; the first is ours. logarithmic: which of xy."""
+def picture(path, lines, x, y, logarithmic='', ticks=None, colours=None):
+    """lines: {name: (xs, ys)}; the first is ours. logarithmic: which of xy. colours: names in the order of their
+    colours, for pictures that have not all of them."""
     figure, axes = plt.subplots(figsize=(6.4, 3.6))
+    order = list(dict.fromkeys([*(colours or []), *lines]))
     for number, (name, (xs, ys)) in enumerate(lines.items()):
-        axes.plot(xs, ys, 'o-', color=COLORS[number % len(COLORS)], linewidth=2 if number == 0 else 1.2,
+        axes.plot(xs, ys, 'o-', color=COLORS[order.index(name) % len(COLORS)], linewidth=2 if number == 0 else 1.2,
                   zorder=3 if number == 0 else 2, label=name)
     if 'x' in logarithmic:
         axes.set_xscale('log')
+        places = sorted({x for xs, _ in lines.values() for x in xs})
+        axes.set_xticks(places, ['{:,}'.format(place).replace(',', '\u202f') for place in places])
+        axes.set_xticks([], minor=True)
     if 'y' in logarithmic:
         axes.set_yscale('log')
     else:
@@ -39,11 +44,11 @@ def plain(name):
     return name.replace('`', '')
 
 
-def time_against_points(path, costs):
+def time_against_points(path, costs, colours=None):
     counts = sorted(costs, key=int)
     names = costs[counts[0]]
     lines = {plain(n): ([int(c) for c in counts], [costs[c][n]['cpu_s'] for c in counts]) for n in names}
-    picture(path, lines, 'points', 'CPU seconds', 'xy')
+    picture(path, lines, 'points', 'CPU seconds', 'xy', colours=colours)
 
 
 def f1_against_noise(path, means):
@@ -85,7 +90,8 @@ def draw(folder, run, runs):
         function(os.path.join(folder, name), *given)
         drawn.append(name)
     if run.get('edges'):
-        into('bench_time.svg', time_against_points, run['edges']['costs'])
+        first = run['edges']['f1'][min(run['edges']['f1'])]
+        into('bench_time.svg', time_against_points, run['edges']['costs'], [plain(name) for name in first])
         into('bench_noise.svg', f1_against_noise, run['edges']['f1'])
     if run.get('fits'):
         into('bench_fits.svg', fits, run['fits'])
