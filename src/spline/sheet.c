@@ -90,17 +90,35 @@ double crease_sheet_bend(const crease_surface *surface, int direction, const dou
         57.295779513082321;
 }
 
-double crease_sheet_dihedral(const crease_surface *surface, int direction, double parameter)
+static bool everywhere(const void *user, double u, double v)
+{
+    (void)user;
+    (void)u;
+    (void)v;
+    return true;
+}
+
+double crease_sheet_dihedral_where(const crease_surface *surface, int direction, double parameter,
+    bool (*counts)(const void *user, double u, double v), const void *user)
 {
     double domain[2], sum = 0.0;
+    int stations = 0;
     crease_surface_domain(surface, 1 - direction, domain);
     for (int i = 0; i < STATIONS; i++) {
         double uv[2];
         uv[direction] = parameter;
         uv[1 - direction] = domain[0] + (domain[1] - domain[0]) * (i + 0.5) / STATIONS;
-        sum += crease_sheet_bend(surface, direction, uv);
+        if (counts(user, uv[0], uv[1])) {
+            sum += crease_sheet_bend(surface, direction, uv);
+            stations++;
+        }
     }
-    return 180.0 - sum / STATIONS;
+    return stations ? 180.0 - sum / stations : crease_sheet_dihedral(surface, direction, parameter);
+}
+
+double crease_sheet_dihedral(const crease_surface *surface, int direction, double parameter)
+{
+    return crease_sheet_dihedral_where(surface, direction, parameter, everywhere, NULL);
 }
 
 static crease_status take_border(

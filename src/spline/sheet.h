@@ -27,5 +27,8 @@ struct crease_sheet {
 double crease_sheet_bend(const crease_surface *surface, int direction, const double uv[2]);
 /* Mean dihedral angle (degrees, 180 = flat) of the surface along a line of constant parameter. */
 double crease_sheet_dihedral(const crease_surface *surface, int direction, double parameter);
+/* The same over the places of the line that count; over all when none does. */
+double crease_sheet_dihedral_where(const crease_surface *surface, int direction, double parameter,
+    bool (*counts)(const void *user, double u, double v), const void *user);
 
 #endif
