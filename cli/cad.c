@@ -28,9 +28,11 @@ crease_status cad_write_trim(crease_context *context, const crease_trim *trim, c
     return crease_cad_trim_write(context, trim, path);
 }
 
-crease_status cad_trim_mesh(crease_context *context, const crease_trim *trim, crease_mesh **out)
+crease_status cad_trim_mesh(
+    crease_context *context, const crease_trim *trim, crease_mesh **out, bool *valid)
 {
     const crease_status status = crease_cad_trim_mesh(context, trim, 0.0, out);
+    *valid = status == CREASE_OK;
     return status == CREASE_ERROR_NUMERIC ? CREASE_OK : status;
 }
 
@@ -64,10 +66,11 @@ crease_status cad_write_trim(crease_context *context, const crease_trim *trim, c
     return cad_check(context, path);
 }
 
-crease_status cad_trim_mesh(crease_context *context, const crease_trim *trim, crease_mesh **out)
+crease_status cad_trim_mesh(
+    crease_context *context, const crease_trim *trim, crease_mesh **out, bool *valid)
 {
-    (void)context, (void)trim;
-    *out = NULL;
+    (void)context, (void)trim, (void)out;
+    *valid = false;
     return CREASE_OK;
 }
 

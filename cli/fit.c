@@ -28,6 +28,8 @@ typedef struct choice {
     int method;
     crease_sheet *sheet; /* a sheet that was fitted to find out, or NULL */
     bool doubtful;       /* the sheet is taken if the method comes to nothing */
+    bool streamed;       /* the sheet is of more points than the cloud has: */
+    deviation_summary of_all;
 } choice;
 
 #ifdef CREASE_HAVE_CAD
@@ -62,7 +64,9 @@ static crease_status choose(
     bool suits = true;
     crease_status status = CREASE_OK;
     out->method = s->method;
-    if (s->method != METHOD_AUTOMATIC)
+    if (out->streamed)
+        out->method = METHOD_SHEET;
+    if (s->method != METHOD_AUTOMATIC || out->streamed)
         return CREASE_OK;
     const bool set = s->net_given || s->rotation_given;
     if (!set)
@@ -88,7 +92,8 @@ static crease_status fit(crease_context *context, const settings *s, report *r,
             return status;
         now.method = METHOD_SHEET;
     }
-    const crease_status status = fit_sheet(context, &now, r, cloud, chosen->sheet);
+    const crease_status status = fit_sheet(
+        context, &now, r, cloud, chosen->sheet, chosen->streamed ? &chosen->of_all : NULL);
     chosen->sheet = NULL;
     return status;
 }
@@ -111,11 +116,38 @@ static crease_status read_sample(
     return CREASE_OK;
 }
 
+/* A sheet of a prescribed net: the memory that it takes does not grow with the points. */
+static crease_status fit_streamed(
+    crease_context *context, const settings *s, report *r, crease_cloud **out, choice *chosen)
+{
+    const char *const path = s->inputs[s->input_count - 1];
+    crease_fit_stream_options options = crease_fit_stream_options_default();
+    crease_fit_stream_summary summary;
+    options.sheet = s->sheet;
+    options.read = s->read;
+    options.memory = limit_left(s);
+    const crease_status status =
+        crease_sheet_fit_stream(context, path, &options, &summary, out, &chosen->sheet);
+    if (status != CREASE_OK)
+        return status;
+    chosen->streamed = true;
+    chosen->of_all = (deviation_summary){summary.mean, summary.rms, summary.p95, summary.most};
+    input_describe_parts(r, summary.count, summary.lowest, summary.highest);
+    cJSON_AddNumberToObject(r->root, "sampled", (double)summary.sampled);
+    report_line(r,
+        "%s: %zu points, in parts; creases and border are those of a sample of %zu of them", path,
+        summary.count, summary.sampled);
+    return CREASE_OK;
+}
+
 static crease_status read_points(
-    crease_context *context, const settings *s, report *r, crease_cloud **out)
+    crease_context *context, const settings *s, report *r, crease_cloud **out, choice *chosen)
 {
     bool larger = false;
     crease_status status = limit_exceeded(context, s, LIMIT_FIT, &larger);
+    if (status == CREASE_OK && larger && s->net_given &&
+        (s->method == METHOD_AUTOMATIC || s->method == METHOD_SHEET))
+        return fit_streamed(context, s, r, out, chosen);
     if (status != CREASE_OK || larger)
         return status == CREASE_OK ? read_sample(context, s, r, out) : status;
     status = input_read(context, s, r, out);
@@ -129,7 +161,7 @@ crease_status fit_run(crease_context *context, const settings *s, report *r)
     choice chosen = {.method = METHOD_AUTOMATIC};
     crease_status status = check(context, s);
     if (status == CREASE_OK)
-        status = read_points(context, s, r, &cloud);
+        status = read_points(context, s, r, &cloud, &chosen);
     if (status == CREASE_OK)
         status = choose(context, s, cloud, &chosen);
     if (status == CREASE_OK)

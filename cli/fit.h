@@ -5,6 +5,7 @@
 #ifndef CREASE_CLI_FIT_H
 #define CREASE_CLI_FIT_H
 
+#include "deviation.h"
 #include "report.h"
 #include "settings.h"
 #include "target.h"
@@ -15,9 +16,10 @@ enum {
 };
 
 /** Fits one sheet, by either of its methods, and writes what is asked for. ready: the sheet, if it
- * has been fitted already, else NULL; it is taken over. */
+ * has been fitted already, else NULL; it is taken over. of_all: deviations of more points than the
+ * cloud has, or NULL. */
 crease_status fit_sheet(crease_context *context, const settings *s, report *r,
-    const crease_cloud *cloud, crease_sheet *ready);
+    const crease_cloud *cloud, crease_sheet *ready, const deviation_summary *of_all);
 /** Builds a part from its smooth regions and writes what is asked for. rival: NULL, or a sheet that
  * is taken instead where no shell comes out, or one that most points are further from: then nothing
  * is written, and *instead is true. */

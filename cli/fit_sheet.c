@@ -5,7 +5,6 @@
 #include "fit.h"
 
 #include "cad.h"
-#include "deviation.h"
 #include "option.h"
 #include "outputs.h"
 
@@ -63,6 +62,15 @@ static crease_status make_lines(crease_context *context, result *all)
     return status;
 }
 
+/* Whether triangles are asked for. */
+static bool is_drawn(const settings *s)
+{
+    for (size_t i = 0; i < s->output_count; i++)
+        if (target_of(s->outputs[i], FIT_ALLOWED) & (TARGET_MESH | TARGET_FIGURE | TARGET_PAGE))
+            return true;
+    return false;
+}
+
 /* Only where something is cut off. */
 static crease_status trim(crease_context *context, const settings *s, report *r, result *all)
 {
@@ -71,8 +79,7 @@ static crease_status trim(crease_context *context, const settings *s, report *r,
     crease_status status = crease_sheet_trim(context, all->sheet, &all->trim);
     bool keep = status == CREASE_OK && !crease_trim_is_whole(all->trim);
     if (keep && cad_is_there()) {
-        status = cad_trim_mesh(context, all->trim, &all->mesh);
-        keep = all->mesh != NULL;
+        status = cad_trim_mesh(context, all->trim, is_drawn(s) ? &all->mesh : NULL, &keep);
         if (!keep && status == CREASE_OK)
             report_line(r, "the sheet is not trimmed: its faces would not be valid");
     }
@@ -217,11 +224,12 @@ static void describe_errors(report *r, const result *all)
     cJSON_AddNumberToObject(object, "max", d.most);
 }
 
-static void describe(report *r, const result *all)
+static void describe(report *r, const result *all, const deviation_summary *of_all)
 {
     const size_t faces = all->trim ? crease_trim_face_count(all->trim) : all->face_count;
     const size_t count = crease_sheet_point_count(all->sheet);
-    const deviation_summary d = deviation_summarise(crease_sheet_deviations(all->sheet), count);
+    const deviation_summary d =
+        of_all ? *of_all : deviation_summarise(crease_sheet_deviations(all->sheet), count);
     const crease_surface_parts parts = crease_surface_parts_of(crease_sheet_surface(all->sheet));
     deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
     describe_errors(r, all);
@@ -336,14 +344,14 @@ static crease_status tell_of_layers(
 }
 
 crease_status fit_sheet(crease_context *context, const settings *s, report *r,
-    const crease_cloud *cloud, crease_sheet *ready)
+    const crease_cloud *cloud, crease_sheet *ready, const deviation_summary *of_all)
 {
     result all = {.sheet = ready};
     crease_status status = make_result(context, s, r, cloud, &all);
     if (status == CREASE_OK) {
         report_stage(r, "fit");
         cJSON_AddStringToObject(r->root, "method", fit_method_names[s->method]);
-        describe(r, &all);
+        describe(r, &all, of_all);
         if (s->method == METHOD_SHEET)
             status = tell_of_layers(context, r, cloud, &all);
     }

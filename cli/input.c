@@ -13,14 +13,21 @@ crease_status input_path(
     return CREASE_OK;
 }
 
+cJSON *input_describe_parts(
+    report *r, size_t count, const double lowest[3], const double highest[3])
+{
+    cJSON *object = cJSON_AddObjectToObject(r->root, "cloud");
+    cJSON_AddNumberToObject(object, "points", (double)count);
+    report_vector(object, "lowest", lowest);
+    report_vector(object, "highest", highest);
+    return object;
+}
+
 void input_describe(report *r, const crease_cloud *cloud)
 {
     double lowest[3], highest[3];
     crease_cloud_bounds(cloud, lowest, highest);
-    cJSON *object = cJSON_AddObjectToObject(r->root, "cloud");
-    cJSON_AddNumberToObject(object, "points", (double)crease_cloud_count(cloud));
-    report_vector(object, "lowest", lowest);
-    report_vector(object, "highest", highest);
+    cJSON *object = input_describe_parts(r, crease_cloud_count(cloud), lowest, highest);
     cJSON_AddBoolToObject(object, "normals", crease_cloud_normals(cloud) != NULL);
     cJSON *fields = cJSON_AddArrayToObject(object, "fields");
     for (size_t i = 0; i < crease_cloud_field_count(cloud); i++)

@@ -52,8 +52,8 @@ CREASE_API crease_status crease_cad_trim_write(
     crease_context *context, const crease_trim *trim, const char *path);
 /** Triangles within the tolerance (a length) of a trimmed sheet; their owners are the numbers of
  * its faces, which share places along their edges, but no vertices. tolerance 0: 1/2000 of the
- * diagonal. Errors: ARGUMENT, NUMERIC (as above, or a face that cannot be triangulated),
- * NO_MEMORY. */
+ * diagonal. out NULL: only finds out whether there is fault. Errors: ARGUMENT, NUMERIC (as above,
+ * or a face that cannot be triangulated), NO_MEMORY. */
 CREASE_API crease_status crease_cad_trim_mesh(
     crease_context *context, const crease_trim *trim, double tolerance, crease_mesh **out);
 

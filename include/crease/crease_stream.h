@@ -69,6 +69,30 @@ CREASE_API crease_status crease_detect_stream(crease_context *context, const cha
 CREASE_API crease_status crease_cloud_read_sample(crease_context *context, const char *input,
     const crease_read_options *options, size_t most, crease_cloud **out, size_t *total);
 
+typedef struct crease_fit_stream_options {
+    crease_sheet_options sheet; /**< as for crease_sheet_fit() */
+    crease_read_options read;   /**< as for crease_cloud_read() */
+    size_t memory;              /**< bytes that this may take; default 1 GiB, at least 8 MB */
+} crease_fit_stream_options;
+
+/** How far the points of a file are from the sheet. */
+typedef struct crease_fit_stream_summary {
+    size_t count;                 /**< points */
+    size_t sampled;               /**< of which the creases were found */
+    double mean, rms, p95, most;  /**< distances of all points; p95 within 1 % */
+    double lowest[3], highest[3]; /**< coordinates */
+} crease_fit_stream_summary;
+
+CREASE_API crease_fit_stream_options crease_fit_stream_options_default(void);
+/** Fits a sheet to the points of a file that memory need not hold, see crease_sum.h: the file is
+ * read four to five times, some points at a time. *sample: an evenly drawn sample of the points
+ * (free it); the points of *out are its. O(n). Errors: those of crease_cloud_read() and
+ * crease_sheet_sum_create(); UNSUPPORTED (the file cannot be read in parts), ARGUMENT (the limit is
+ * too low for the net). */
+CREASE_API crease_status crease_sheet_fit_stream(crease_context *context, const char *input,
+    const crease_fit_stream_options *options, crease_fit_stream_summary *summary,
+    crease_cloud **sample, crease_sheet **out);
+
 #ifdef __cplusplus
 }
 #endif

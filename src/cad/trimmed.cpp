@@ -394,12 +394,15 @@ crease_status crease_cad_trim_write(
 crease_status crease_cad_trim_mesh(
     crease_context *context, const crease_trim *trim, double tolerance, crease_mesh **out)
 {
-    *out = nullptr;
+    if (out)
+        *out = nullptr;
     if (!(tolerance >= 0.0 && tolerance < HUGE_VAL))
         return crease_context_fail(context, CREASE_ERROR_ARGUMENT,
             "mesh: the tolerance is %g; give a length, or 0 for the default", tolerance);
     return crease_cad::guard(context, "mesh", [&] {
         const TopoDS_Shape shape = crease_cad::shape_of(trim);
+        if (!out)
+            return;
         const double within =
             tolerance > 0.0 ? tolerance : crease_cad::trimmed::COARSE * crease_cad::diagonal(shape);
         const crease_cad::Triangles found = crease_cad::tessellate(shape, within);

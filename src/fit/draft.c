@@ -63,7 +63,7 @@ static crease_status solve(
 /* Mean distance, freedom and score of the solution at hand. */
 static crease_status evaluate(crease_context *context, crease_draft *draft)
 {
-    const double n = draft->samples->used;
+    const double n = draft->observed > 0.0 ? draft->observed : draft->samples->used;
     const double floor = fmax(draft->samples->rounding, NEGLIGIBLE * draft->samples->spacing);
     draft->mean = crease_samples_mean_distance(draft->samples);
     const crease_status status = crease_system_freedom(context, &draft->system, &draft->freedom);
@@ -275,8 +275,7 @@ bool crease_draft_bounded(const crease_draft *draft)
     return true;
 }
 
-crease_status crease_draft_fit(
-    crease_context *context, crease_draft *draft, int rounds, crease_choice choice)
+crease_status crease_draft_open(crease_context *context, crease_draft *draft)
 {
     crease_gaps gaps = {.empty = 0};
     crease_height before = draft->height;
@@ -291,11 +290,30 @@ crease_status crease_draft_fit(
     if (status == CREASE_OK && draft->begun && before.coefficients && draft->system.multigrid)
         crease_height_resemble(&before, &draft->height);
     crease_height_free(&before);
+    return status;
+}
+
+crease_status crease_draft_fit(
+    crease_context *context, crease_draft *draft, int rounds, crease_choice choice)
+{
+    crease_status status = crease_draft_open(context, draft);
     const int times = draft->samples->count <= FEW_POINTS ? MORE_ROUNDS * rounds : rounds;
     for (int round = 0; round < times && status == CREASE_OK; round++)
         status = fit_round(context, draft, round, round == times - 1, choice);
     draft->begun = false;
     return status;
+}
+
+void crease_draft_hold(crease_draft *draft, double scale)
+{
+    draft->system.hold = weight_of_tension(draft->samples, scale);
+}
+
+crease_status crease_draft_solve(crease_context *context, crease_draft *draft, crease_choice choice)
+{
+    return choice == CREASE_CHOICE_NONE || draft->fixed_lambda >= 0.0
+        ? keep_lambda(context, draft, true)
+        : choose_lambda(context, draft, false);
 }
 
 crease_status crease_draft_begin(crease_context *context, crease_draft *draft,

@@ -31,9 +31,10 @@ typedef struct crease_draft {
     double stiffness;    /* weight of the bending, in absolute numbers, to try first; else 0 */
     bool begun;          /* the samples have feet and distances to begin the next fit with */
     bool warm;           /* the points are many: fits begin from what is known */
-    double mean;         /* mean distance of the points */
-    double freedom;      /* effective number of parameters */
-    double score;        /* to compare drafts: the lower, the better */
+    double observed; /* points that the equations are of, when the samples are but some; else 0 */
+    double mean;     /* mean distance of the points */
+    double freedom;  /* effective number of parameters */
+    double score;    /* to compare drafts: the lower, the better */
 } crease_draft;
 
 /* Puts the samples into the draft's frame, and the ends of the domain around them. */
@@ -48,6 +49,15 @@ void crease_draft_place(crease_draft *draft);
  * Errors: NUMERIC, NO_MEMORY, CANCELLED. */
 crease_status crease_draft_fit(
     crease_context *context, crease_draft *draft, int rounds, crease_choice choice);
+/* A fit in steps, to points that come in parts: the height and the equations of the layout, without
+ * points; begun: the height is then much like the one before. */
+crease_status crease_draft_open(crease_context *context, crease_draft *draft);
+/* How much a gap resists. scale: standard deviation of the points. */
+void crease_draft_hold(crease_draft *draft, double scale);
+/* Solves the equations as they are; NONE, or NEAR. Distances and score are those of the samples.
+ * Errors: as crease_draft_fit(). */
+crease_status crease_draft_solve(
+    crease_context *context, crease_draft *draft, crease_choice choice);
 /* Places the samples and finds their feet on a height much like the one to come, the draft's own
  * perhaps: the next fit takes its planes and weights from there. Errors: CANCELLED. */
 crease_status crease_draft_begin(crease_context *context, crease_draft *draft,

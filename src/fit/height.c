@@ -122,6 +122,13 @@ static double place_of(const crease_height *height, int direction, size_t i)
     return sum / (double)degree;
 }
 
+/* How far t is from the domain. */
+static double beyond(const crease_height *height, int direction, double t)
+{
+    return t -
+        crease_basis_clamp(height->knots[direction], height->order, height->count[direction], t);
+}
+
 void crease_height_resemble(const crease_height *other, crease_height *height)
 {
     const crease_side sides[2] = {CREASE_SIDE_RIGHT, CREASE_SIDE_RIGHT};
@@ -129,7 +136,8 @@ void crease_height_resemble(const crease_height *other, crease_height *height)
         for (size_t j = 0; j < height->count[1]; j++, k++) {
             const double uv[2] = {place_of(height, 0, i), place_of(height, 1, j)};
             double f[3];
-            crease_height_at(other, uv, sides, 0, f);
-            height->coefficients[k] = f[0];
+            crease_height_at(other, uv, sides, 1, f);
+            height->coefficients[k] =
+                f[0] + f[1] * beyond(other, 0, uv[0]) + f[2] * beyond(other, 1, uv[1]);
         }
 }

@@ -22,7 +22,7 @@ crease_status crease_height_create(
     crease_context *context, const crease_layout *layout, crease_height *out);
 void crease_height_free(crease_height *height);
 
-/* Makes the height much like another over the same domain, exactly when that is linear.
+/* Makes the height much like another over much the same domain, exactly when that is linear.
  * Based on: Schoenberg. On spline functions. 1967 (variation diminishing approximation). */
 void crease_height_resemble(const crease_height *other, crease_height *height);
 
