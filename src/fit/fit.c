@@ -43,23 +43,18 @@ static crease_status finish(
 }
 
 /* A height over a rectangle. */
-static crease_status fit_height(crease_context *context, const crease_cloud *cloud,
-    const crease_sheet_options *options, crease_sheet **sheet)
+static crease_status fit_height(crease_context *context, crease_fitting *f, crease_sheet **sheet)
 {
-    crease_fitting f;
     double *errors = NULL;
-    crease_status status = crease_fitting_create(context, cloud, options, &f);
+    crease_status status = crease_fitting_choose(context, f);
     if (status == CREASE_OK)
-        status = crease_fitting_choose(context, &f);
-    if (status == CREASE_OK)
-        status = finish(context, &f, &errors, sheet);
+        status = finish(context, f, &errors, sheet);
     if (status == CREASE_OK) {
         (*sheet)->errors = errors;
         errors = NULL;
-        status = crease_fitting_project(context, &f.draft, f.points, f.count, *sheet);
+        status = crease_fitting_project(context, &f->draft, f->points, f->count, *sheet);
     }
     free(errors);
-    crease_fitting_free(&f);
     return status;
 }
 
@@ -77,6 +72,21 @@ static crease_status try_curved(crease_context *context, const crease_cloud *clo
         : status;
 }
 
+static crease_status fit(crease_context *context, const crease_cloud *cloud,
+    const crease_sheet_options *options, crease_sheet **sheet)
+{
+    crease_fitting f;
+    crease_status status = crease_fitting_create(context, cloud, options, &f);
+    if (status == CREASE_OK)
+        status = crease_fitting_find_exact(context, &f);
+    if (status == CREASE_OK && !f.exact)
+        status = try_curved(context, cloud, options, sheet);
+    if (status == CREASE_OK && !*sheet)
+        status = fit_height(context, &f, sheet);
+    crease_fitting_free(&f);
+    return status;
+}
+
 crease_status crease_sheet_fit(crease_context *context, const crease_cloud *cloud,
     const crease_sheet_options *options, crease_sheet **out)
 {
@@ -88,9 +98,7 @@ crease_status crease_sheet_fit(crease_context *context, const crease_cloud *clou
         return status;
     const int blas_threads = openblas_get_num_threads();
     openblas_set_num_threads(1);
-    status = try_curved(context, cloud, &chosen, &sheet);
-    if (status == CREASE_OK && !sheet)
-        status = fit_height(context, cloud, &chosen, &sheet);
+    status = fit(context, cloud, &chosen, &sheet);
     openblas_set_num_threads(blas_threads);
     if (status == CREASE_OK)
         *out = sheet;

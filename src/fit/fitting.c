@@ -7,6 +7,7 @@
 #include "base/vector.h"
 #include "fit/closest.h"
 #include "fit/covariance.h"
+#include "fit/exact.h"
 #include "fit/isolate.h"
 #include "fit/lines.h"
 #include "spline/sheet.h"
@@ -150,8 +151,57 @@ static crease_status knots_for_gaps(crease_context *context, crease_fitting *f)
     return status;
 }
 
+/* Whether all points lie on the sheet that some of them lie on. */
+static crease_status confirm(crease_context *context, crease_fitting *f, size_t step)
+{
+    crease_samples samples = {0};
+    f->draft.lambda = 0;
+    crease_explore_keep_net(&f->draft.layout, &f->bounds);
+    crease_status status = draft_samples(context, f, step, &samples);
+    if (status == CREASE_OK)
+        status = crease_draft_fit(context, &f->draft, 1, CREASE_CHOICE_NONE);
+    f->exact = status == CREASE_OK && f->draft.mean <= EXACT * samples.spacing + samples.rounding;
+    if (f->exact && !crease_draft_bounded(&f->draft))
+        status = knots_for_gaps(context, f);
+    if (f->exact && status == CREASE_OK)
+        for (int d = 0; d < 2; d++)
+            if (f->bounds.net[d] == 0)
+                f->draft.layout.axis[d].smooth = f->bounds.least[d];
+    crease_samples_free(&samples);
+    return status == CREASE_ERROR_NUMERIC ? CREASE_OK : status;
+}
+
+crease_status crease_fitting_find_exact(crease_context *context, crease_fitting *f)
+{
+    const crease_sheet_options *const o = f->options;
+    crease_samples samples = {0};
+    if (o->orientation != CREASE_ORIENTATION_AUTOMATIC || o->smoothing >= 0.0 || o->order < 3)
+        return CREASE_OK;
+    const size_t step = (f->count + MOST_EXPLORED - 1) / MOST_EXPLORED;
+    const crease_draft before = f->draft;
+    crease_layout layout = f->draft.layout;
+    bool found = false;
+    crease_status status = crease_samples_create(
+        context, f->points, f->keep, f->count, step, f->spacing, f->epsilon, &samples);
+    if (status == CREASE_OK)
+        status = crease_exact_find(
+            context, &samples, &f->oriented, f->bounds.creases, &f->draft.frame, &layout, &found);
+    crease_samples_free(&samples);
+    if (status != CREASE_OK || !found)
+        return status;
+    f->draft.layout = layout;
+    status = confirm(context, f, step);
+    if (status == CREASE_OK && !f->exact) {
+        crease_draft_free(&f->draft);
+        f->draft = before;
+    }
+    return status;
+}
+
 crease_status crease_fitting_choose(crease_context *context, crease_fitting *f)
 {
+    if (f->exact)
+        return CREASE_OK;
     crease_samples samples = {0};
     crease_candidate candidates[CREASE_MOST_CANDIDATES + 1];
     const bool turn = f->options->orientation == CREASE_ORIENTATION_AUTOMATIC;

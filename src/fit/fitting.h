@@ -13,6 +13,7 @@ typedef struct crease_fitting {
     const crease_sheet_options *options;
     crease_bounds bounds;
     bool large; /* the net asked for is too large to choose with; it is fitted at the end */
+    bool exact; /* frame and lines are those of a sheet that goes through all points */
     size_t count;
     const double *points; /* not owned */
     double epsilon;       /* relative rounding of the coordinates */
@@ -33,6 +34,10 @@ crease_status crease_fitting_check(
 crease_status crease_fitting_create(crease_context *context, const crease_cloud *cloud,
     const crease_sheet_options *options, crease_fitting *out);
 void crease_fitting_free(crease_fitting *fitting);
+/* Looks for a sheet of few control points that goes through all points, see fit/exact.h, where the
+ * options leave the frame free. If there is one, there is nothing to choose but how to fill gaps.
+ */
+crease_status crease_fitting_find_exact(crease_context *context, crease_fitting *fitting);
 /* Chooses frame, lines, knots and smoothing, on some of the points. */
 crease_status crease_fitting_choose(crease_context *context, crease_fitting *fitting);
 /* Fits all points, with the lines moved to where they fit best. The samples, empty before, are all

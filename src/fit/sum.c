@@ -58,6 +58,8 @@ static crease_status begin(crease_context *context, crease_sheet_sum *sum)
     crease_fitting *const f = &sum->fitting;
     crease_status status = crease_fitting_create(context, sum->cloud, &sum->options, f);
     if (status == CREASE_OK)
+        status = crease_fitting_find_exact(context, f);
+    if (status == CREASE_OK)
         status = crease_fitting_choose(context, f);
     if (status == CREASE_OK)
         status = crease_fitting_settle(context, f, &sum->sample);
