@@ -71,6 +71,17 @@ def fits(path, rows):
     picture(path, lines, 'control points (%d points)' % most, 'CPU seconds', 'xy')
 
 
+def error_against_points(path, surfaces):
+    """Of bench/noise: errors over the noise, and what least squares without smoothing promise."""
+    lines = {}
+    for net in dict.fromkeys(s['net'] for s in surfaces if isinstance(s['net'], int)):
+        mine = [s for s in surfaces if s['net'] == net]
+        lines['%d x %d' % (net, net)] = ([s['points'] / net ** 2 for s in mine], [s['error'] / s['noise'] for s in mine])
+    ends = [f(x for xs, _ in lines.values() for x in xs) for f in (min, max)]
+    lines['1 / sqrt(points per control point)'] = (ends, [x ** -.5 for x in ends])
+    picture(path, lines, 'points for each control point', 'error of the surface / noise', 'xy')
+
+
 def instructions_over_runs(path, runs):
     """Of each stage, relative to the first kept run that has it with the same input."""
     stages = dict.fromkeys(stage for run in runs for stage in run['stages'])

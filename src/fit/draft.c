@@ -213,7 +213,12 @@ static crease_status keep_lambda(crease_context *context, crease_draft *draft, b
     }
     if (status == CREASE_OK && !solved)
         return not_determined(context, draft);
-    return status == CREASE_OK && last ? evaluate(context, draft) : status;
+    if (status != CREASE_OK || !last)
+        return status;
+    if (!draft->system.multigrid)
+        return evaluate(context, draft);
+    draft->mean = crease_samples_mean_distance(draft->samples); /* a score takes another solution */
+    return CREASE_OK;
 }
 
 static double weight_of_tension(const crease_samples *samples, double scale)

@@ -26,7 +26,9 @@ enum {
     MOST_REFINED = 50000,
     MOST_ROWS = 2048,
     LEAST_POINTS = 6,
-    MOST_FOR_GAPS = 7
+    MOST_FOR_GAPS = 7,
+    ROUNDS_TO_EXACT =
+        4 /* what holds the gaps gives way as the points' scatter turns out to be none */
 };
 
 /* A line of full multiplicity needs one more span on either side of it. */
@@ -159,7 +161,7 @@ static crease_status confirm(crease_context *context, crease_fitting *f, size_t 
     crease_explore_keep_net(&f->draft.layout, &f->bounds);
     crease_status status = draft_samples(context, f, step, &samples);
     if (status == CREASE_OK)
-        status = crease_draft_fit(context, &f->draft, 1, CREASE_CHOICE_NONE);
+        status = crease_draft_fit(context, &f->draft, ROUNDS_TO_EXACT, CREASE_CHOICE_NONE);
     f->exact = status == CREASE_OK && f->draft.mean <= EXACT * samples.spacing + samples.rounding;
     if (f->exact && !crease_draft_bounded(&f->draft))
         status = knots_for_gaps(context, f);

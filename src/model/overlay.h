@@ -65,8 +65,8 @@ typedef struct crease_overlay {
     crease_overlay_face *faces;
 } crease_overlay;
 
-/* Faces narrower than least_width, in the mean, are left out. *sound: false where the border turns
- * out to be none. Errors: NO_MEMORY. */
+/* Faces narrower than least_width, in the mean, are left out, but between two cuts. *sound: false
+ * where the border turns out to be none. Errors: NO_MEMORY. */
 crease_status crease_overlay_find(crease_context *context, const crease_frontier *frontier,
     const crease_cuts *cuts, double least_width, crease_overlay *out, bool *sound);
 void crease_overlay_clear(crease_overlay *overlay);

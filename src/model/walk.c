@@ -12,6 +12,7 @@
 #include <string.h>
 
 static const double TURN = 6.283185307179586476925;
+static const double BORDER = 0.25; /* share of a sliver's length */
 #define NONE UINT32_MAX
 
 /* ----------------------------------------------------------------------------------- loops -- */
@@ -114,18 +115,21 @@ static crease_status walk_loops(crease_context *context, crease_overlay *o, bool
 
 struct measure {
     double area, length, low[2], high[2];
+    double border; /* length, as far as it is no cut */
 };
 
 static struct measure measure_loop(const crease_overlay *o, size_t loop)
 {
-    struct measure m = {0.0, 0.0, {INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    struct measure m = {.low = {INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY}};
     for (size_t i = o->first_half[loop]; i < o->first_half[loop + 1]; i++) {
         const crease_overlay_edge *const e = &o->edges[o->halves[i] / 2];
         const double sign = (o->halves[i] & 1) ? -1.0 : 1.0;
         for (size_t k = 0; k + 1 < e->count; k++) {
             const double *const p = o->places + 2 * (e->first + k);
             m.area += sign * 0.5 * (p[0] * p[3] - p[2] * p[1]);
-            m.length += hypot(p[2] - p[0], p[3] - p[1]);
+            const double length = hypot(p[2] - p[0], p[3] - p[1]);
+            m.length += length;
+            m.border += e->direction < 0 ? length : 0.0;
             for (int d = 0; d < 2; d++) {
                 m.low[d] = fmin(m.low[d], fmin(p[d], p[2 + d]));
                 m.high[d] = fmax(m.high[d], fmax(p[d], p[2 + d]));
@@ -211,6 +215,12 @@ static crease_status sort_loops(crease_context *context, crease_overlay *o, cons
     return CREASE_OK;
 }
 
+/* A narrow face along the border is left out; one between two cuts would leave a gap there. */
+static bool is_sliver(const struct measure *m, double least_width)
+{
+    return 2.0 * m->area < least_width * m->length && m->border > BORDER * m->length;
+}
+
 static crease_status find_faces(crease_context *context, crease_overlay *o, const crease_cuts *cuts,
     double least_width, bool *sound)
 {
@@ -224,7 +234,7 @@ static crease_status find_faces(crease_context *context, crease_overlay *o, cons
         *sound = *sound && outer[i] < SIZE_MAX;
     }
     for (size_t i = 0; i < o->loop_count && status == CREASE_OK; i++)
-        if (outer[i] == i && 2.0 * measures[i].area < least_width * measures[i].length)
+        if (outer[i] == i && is_sliver(&measures[i], least_width))
             outer[i] = SIZE_MAX;
     for (size_t i = 0; i < o->loop_count && status == CREASE_OK && *sound; i++)
         if (measures[i].area <= 0.0 && outer[outer[i]] != outer[i])
