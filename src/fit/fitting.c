@@ -26,9 +26,7 @@ enum {
     MOST_REFINED = 50000,
     MOST_ROWS = 2048,
     LEAST_POINTS = 6,
-    MOST_FOR_GAPS = 7,
-    ROUNDS_TO_EXACT =
-        4 /* what holds the gaps gives way as the points' scatter turns out to be none */
+    MOST_FOR_GAPS = 7
 };
 
 /* A line of full multiplicity needs one more span on either side of it. */
@@ -160,8 +158,9 @@ static crease_status confirm(crease_context *context, crease_fitting *f, size_t 
     f->draft.lambda = 0;
     crease_explore_keep_net(&f->draft.layout, &f->bounds);
     crease_status status = draft_samples(context, f, step, &samples);
+    f->draft.begun = true; /* with distances of zero: nothing holds the gaps against the points */
     if (status == CREASE_OK)
-        status = crease_draft_fit(context, &f->draft, ROUNDS_TO_EXACT, CREASE_CHOICE_NONE);
+        status = crease_draft_fit(context, &f->draft, 1, CREASE_CHOICE_NONE);
     f->exact = status == CREASE_OK && f->draft.mean <= EXACT * samples.spacing + samples.rounding;
     if (f->exact && !crease_draft_bounded(&f->draft))
         status = knots_for_gaps(context, f);
@@ -305,12 +304,14 @@ static crease_status settle(
 {
     const bool turn = f->options->orientation == CREASE_ORIENTATION_AUTOMATIC;
     crease_status status = draft_samples(context, f, step, samples);
+    f->draft.begun = f->exact;
     if (status == CREASE_OK)
         status = crease_draft_fit(context, &f->draft, 3, CREASE_CHOICE_NEAR);
     f->draft.redescending = f->draft.orthogonal = true;
+    f->draft.begun = f->exact;
     if (status == CREASE_OK)
         status = crease_draft_fit(context, &f->draft, 4, CREASE_CHOICE_NONE);
-    if (status == CREASE_OK)
+    if (status == CREASE_OK && !f->exact)
         status = crease_lines_refine(context, &f->draft, steps, turn);
     return status == CREASE_OK ? hold_back(context, f) : status;
 }
