@@ -37,3 +37,10 @@ crease_status engine_detect_stream(crease_context *context, const char *input,
 {
     return crease_detect_stream(context, input, options, output, summary, regions, network);
 }
+
+crease_status engine_fit_stream(crease_context *context, const char *input,
+    const crease_fit_stream_options *options, crease_fit_stream_summary *summary,
+    crease_cloud **sample, crease_sheet **out)
+{
+    return crease_sheet_fit_stream(context, input, options, summary, sample, out);
+}

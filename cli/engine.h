@@ -25,5 +25,9 @@ crease_status engine_regions(crease_context *context, const crease_cloud *cloud,
 crease_status engine_detect_stream(crease_context *context, const char *input,
     const crease_stream_options *options, const char *output, crease_stream_summary *summary,
     crease_regions **regions, crease_network **network);
+/* crease_sheet_fit_stream(). */
+crease_status engine_fit_stream(crease_context *context, const char *input,
+    const crease_fit_stream_options *options, crease_fit_stream_summary *summary,
+    crease_cloud **sample, crease_sheet **out);
 
 #endif

@@ -4,6 +4,8 @@
 /* crease fit: chooses between a sheet, a shell and a part. */
 #include "fit.h"
 
+#include "engine.h"
+
 #include "command.h"
 #include "input.h"
 #include "limit.h"
@@ -127,7 +129,7 @@ static crease_status fit_streamed(
     options.read = s->read;
     options.memory = limit_left(s);
     const crease_status status =
-        crease_sheet_fit_stream(context, path, &options, &summary, out, &chosen->sheet);
+        engine_fit_stream(context, path, &options, &summary, out, &chosen->sheet);
     if (status != CREASE_OK)
         return status;
     chosen->streamed = true;

@@ -111,3 +111,11 @@ crease_status engine_detect_stream(crease_context *context, const char *input,
     (void)context;
     return crease_mpi_detect_stream(team, input, options, output, summary, regions, network);
 }
+
+crease_status engine_fit_stream(crease_context *context, const char *input,
+    const crease_fit_stream_options *options, crease_fit_stream_summary *summary,
+    crease_cloud **sample, crease_sheet **out)
+{
+    (void)context;
+    return crease_mpi_sheet_fit_stream(team, input, options, summary, sample, out);
+}

@@ -77,6 +77,16 @@ CREASE_API crease_status crease_mpi_detect_stream(crease_mpi *mpi, const char *i
     const crease_stream_options *options, const char *output, crease_stream_summary *summary,
     crease_regions **regions, crease_network **network);
 
+/** Rank 0, while the others serve: crease_sheet_fit_stream(), with the same bytes for any number of
+ * ranks, one included. The other ranks read the file, batch about (all must see it under the same
+ * name), find the feet and weights of its points and their distances; rank 0 reads it once for the
+ * sample, and adds what it is sent, 40 bytes for each point in each round, to the normal equations
+ * in the order of the file. Every rank needs the memory of a batch, rank 0 that of the net, too.
+ * Errors: as there, of any rank. */
+CREASE_API crease_status crease_mpi_sheet_fit_stream(crease_mpi *mpi, const char *input,
+    const crease_fit_stream_options *options, crease_fit_stream_summary *summary,
+    crease_cloud **sample, crease_sheet **out);
+
 #ifdef __cplusplus
 }
 #endif

@@ -4,11 +4,10 @@
 /* A sheet of points that come in batches. What has to be known beforehand is found from a sample;
  * each batch is then placed, weighed by its distances from the sheet found so far, and added to the
  * normal equations. */
-#include "crease/crease_sum.h"
+#include "fit/sum.h"
 
 #include "base/memory.h"
 #include "fit/closest.h"
-#include "fit/fitting.h"
 #include "spline/sheet.h"
 
 #include <cblas.h>
@@ -22,27 +21,6 @@ enum { AT_ONCE = 1 << 20 };
 static const double REACH = 4.0;
 /* Mean distances of two fits of which one serves the other: in shares. */
 static const double ALIKE = 0.98;
-
-typedef struct box {
-    double low[2], high[2];
-} box;
-
-struct crease_sheet_sum {
-    crease_sheet_options options;
-    crease_cloud *cloud; /* the sample */
-    crease_samples sample;
-    crease_fitting fitting;
-    crease_height below; /* the sheet that feet and weights are taken from */
-    crease_layout below_layout;
-    crease_surface *surface; /* solved last, or NULL */
-    box all;
-    double scale; /* standard deviation of the points */
-    double mean;  /* distance of the sample from the sheet below */
-    size_t count;
-    bool open;  /* points may be added */
-    bool exact; /* the sample's sheet goes through its points */
-    bool wants_more;
-};
 
 static crease_status copy_points(
     crease_context *context, const crease_cloud *from, crease_cloud **out)
@@ -201,30 +179,70 @@ static void leave_out(const crease_sheet_sum *sum, crease_samples *batch)
                 batch->prior[i] = 0.0;
 }
 
-static crease_status add_batch(crease_context *context, crease_sheet_sum *sum, const double *points,
-    const double *keep, size_t count)
+/* The five numbers of each point as the equations take them. */
+static crease_observations observations_of(const double *numbers, size_t count)
 {
-    crease_draft *const draft = &sum->fitting.draft;
+    return (crease_observations){.count = count,
+        .sides = 1,
+        .uv = numbers,
+        .weight = numbers + 2 * count,
+        .tilt = numbers + 3 * count,
+        .target = numbers + 4 * count};
+}
+
+static crease_status observe_some(crease_context *context, const crease_sheet_sum *sum,
+    const double *points, const double *keep, size_t count, double *numbers)
+{
     crease_samples batch = {0};
     double low[2], high[2];
     crease_status status = crease_samples_create(
         context, points, keep, count, 1, sum->sample.spacing, sum->fitting.epsilon, &batch);
     if (status == CREASE_OK) {
-        crease_samples_place(&batch, &draft->frame, low, high);
+        crease_samples_place(&batch, &sum->fitting.draft.frame, low, high);
         leave_out(sum, &batch);
         status = crease_samples_project(context, &batch, &sum->below, &sum->below_layout);
     }
     if (status == CREASE_OK) {
         crease_samples_reweigh(&batch, sum->scale, true);
-        const crease_observations seen = {.count = count,
-            .sides = 1,
-            .uv = batch.uv,
-            .weight = batch.weight,
-            .tilt = batch.tilt,
-            .target = batch.target};
-        status = crease_system_add(context, &draft->system, &draft->height, &seen);
+        memcpy(numbers, batch.uv, 2 * count * sizeof *numbers);
+        memcpy(numbers + 2 * count, batch.weight, count * sizeof *numbers);
+        memcpy(numbers + 3 * count, batch.tilt, count * sizeof *numbers);
+        memcpy(numbers + 4 * count, batch.target, count * sizeof *numbers);
     }
     crease_samples_free(&batch);
+    return status;
+}
+
+crease_status crease_sheet_sum_begin(crease_context *context, crease_sheet_sum *sum)
+{
+    return sum->open ? CREASE_OK : open_round(context, sum);
+}
+
+crease_status crease_sheet_sum_observe(crease_context *context, const crease_sheet_sum *sum,
+    const double *points, size_t count, double *numbers)
+{
+    crease_status status = check_points(context, points, count);
+    if (status != CREASE_OK || count == 0)
+        return status;
+    double *const keep = crease_allocate(context, count, sizeof *keep);
+    if (!keep)
+        return CREASE_ERROR_NO_MEMORY;
+    for (size_t i = 0; i < count; i++)
+        keep[i] = 1.0;
+    status = observe_some(context, sum, points, keep, count, numbers);
+    free(keep);
+    return status;
+}
+
+crease_status crease_sheet_sum_take(
+    crease_context *context, crease_sheet_sum *sum, const double *numbers, size_t count)
+{
+    crease_draft *const draft = &sum->fitting.draft;
+    const crease_observations seen = observations_of(numbers, count);
+    if (count == 0)
+        return CREASE_OK;
+    const crease_status status = crease_system_add(context, &draft->system, &draft->height, &seen);
+    sum->count += status == CREASE_OK ? count : 0;
     return status;
 }
 
@@ -235,18 +253,17 @@ crease_status crease_sheet_sum_add(
     crease_status status = check_points(context, points, count);
     if (status != CREASE_OK || count == 0)
         return status;
-    status = sum->open ? CREASE_OK : open_round(context, sum);
-    double *keep = crease_allocate(context, most, sizeof *keep);
-    if (!keep)
+    status = crease_sheet_sum_begin(context, sum);
+    double *const numbers = crease_allocate(context, most, CREASE_OBSERVED * sizeof *numbers);
+    if (!numbers)
         return CREASE_ERROR_NO_MEMORY;
-    for (size_t i = 0; i < most; i++)
-        keep[i] = 1.0;
     for (size_t at = 0; at < count && status == CREASE_OK; at += most) {
         const size_t some = count - at < most ? count - at : most;
-        status = add_batch(context, sum, points + 3 * at, keep, some);
-        sum->count += status == CREASE_OK ? some : 0;
+        status = crease_sheet_sum_observe(context, sum, points + 3 * at, some, numbers);
+        if (status == CREASE_OK)
+            status = crease_sheet_sum_take(context, sum, numbers, some);
     }
-    free(keep);
+    free(numbers);
     return status;
 }
 

@@ -11,11 +11,28 @@
 #include "write/cloud.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* ------------------------------------------------------------------------------------ reading --
  */
+
+crease_status crease_mpi_rows_open(const crease_mpi *mpi, const char *path,
+    const crease_read_options *options, size_t rows, crease_rows **out)
+{
+    char text[256];
+    const crease_status status = crease_rows_open(mpi->context, path, options, out);
+    if (status == CREASE_OK && crease_rows_count(*out) != rows)
+        return crease_fail(mpi->context, CREASE_ERROR_FORMAT,
+            "rank %d: %s: has %zu points here and %zu for rank 0; let all ranks see the same file",
+            mpi->rank, path, crease_rows_count(*out), rows);
+    if (status == CREASE_OK || status == CREASE_ERROR_NO_MEMORY)
+        return status;
+    snprintf(text, sizeof text, "%s", crease_context_message(mpi->context));
+    return crease_fail(mpi->context, status, "rank %d, which reads a share of the file itself: %s",
+        mpi->rank, text);
+}
 
 static void take_rows(crease_mpi_intake *intake, const crease_cloud *cloud)
 {

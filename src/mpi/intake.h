@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* A file that every rank but 0 reads its own share of. Internal view; every function is collective.
- */
+/* A file that every rank but 0 reads its own share of. Internal view; every function is collective
+ * but where it says otherwise. */
 #ifndef CREASE_MPI_INTAKE_H
 #define CREASE_MPI_INTAKE_H
 
@@ -20,6 +20,10 @@ typedef struct crease_mpi_intake {
     crease_type coordinate_type;
 } crease_mpi_intake;
 
+/* Opens a file that rank 0 has found to have so many rows; every machine has to see the same. Not
+ * collective. Errors: those of crease_rows_open(), with the number of the rank; FORMAT. */
+crease_status crease_mpi_rows_open(const crease_mpi *mpi, const char *path,
+    const crease_read_options *options, size_t rows, crease_rows **out);
 /* Reads the own rows. rows: opened, and left to the caller. */
 crease_status crease_mpi_intake_read(
     const crease_mpi *mpi, crease_rows *rows, size_t at_once, crease_mpi_intake *out);

@@ -14,6 +14,8 @@ static crease_status serve(const crease_mpi *mpi, const crease_mpi_request *requ
     mpi->context->options.seed = request->seed;
     if (request->stage == CREASE_MPI_STREAM)
         return crease_mpi_stream_stage(mpi);
+    if (request->stage == CREASE_MPI_FIT)
+        return crease_mpi_fit_stage(mpi);
     return crease_mpi_scores_stage(mpi, &cloud, &request->detect, NULL);
 }
 

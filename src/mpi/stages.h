@@ -5,9 +5,16 @@
 #ifndef CREASE_MPI_STAGES_H
 #define CREASE_MPI_STAGES_H
 
+#include "mpi/intake.h"
 #include "mpi/surroundings.h"
 
-enum { CREASE_MPI_END, CREASE_MPI_SCORES, CREASE_MPI_SURROUNDINGS, CREASE_MPI_STREAM };
+enum {
+    CREASE_MPI_END,
+    CREASE_MPI_SCORES,
+    CREASE_MPI_SURROUNDINGS,
+    CREASE_MPI_STREAM,
+    CREASE_MPI_FIT
+};
 
 typedef struct crease_mpi_request {
     int64_t stage;
@@ -22,6 +29,8 @@ crease_status crease_mpi_scores_stage(const crease_mpi *mpi, const crease_mpi_cl
 /* Collective, but not for rank 0, which tells what is to be done; see crease_mpi_detect_stream().
  */
 crease_status crease_mpi_stream_stage(const crease_mpi *mpi);
+/* The same, for a pass over the file; see crease_mpi_sheet_fit_stream(). */
+crease_status crease_mpi_fit_stage(const crease_mpi *mpi);
 
 /* Rank 0: whether so many points can be shared out. */
 crease_status crease_mpi_check(const crease_mpi *mpi, size_t count);

@@ -13,7 +13,6 @@
 #include "stream/labelled.h"
 #include "write/output.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,23 +40,12 @@ typedef struct helping {
 /* ------------------------------------------------------------------------------------ reading --
  */
 
-/* Every machine has to see the same file. */
 static crease_status open_rows(helping *run)
 {
     const crease_mpi *const mpi = run->mpi;
-    const char *const input = run->orders.input;
-    char text[256];
-    crease_status status = crease_rows_open(mpi->context, input, &run->orders.read, &run->rows);
-    if (status != CREASE_OK && status != CREASE_ERROR_NO_MEMORY) {
-        snprintf(text, sizeof text, "%s", crease_context_message(mpi->context));
-        status = crease_fail(mpi->context, status,
-            "rank %d, which reads a share of the file itself: %s", mpi->rank, text);
-    } else if (status == CREASE_OK && crease_rows_count(run->rows) != run->orders.rows) {
-        status = crease_fail(mpi->context, CREASE_ERROR_FORMAT,
-            "rank %d: %s: has %zu points here and %zu for rank 0; let all ranks see the same file",
-            mpi->rank, input, crease_rows_count(run->rows), (size_t)run->orders.rows);
-    }
-    return crease_mpi_agree(mpi, status);
+    return crease_mpi_agree(mpi,
+        crease_mpi_rows_open(
+            mpi, run->orders.input, &run->orders.read, run->orders.rows, &run->rows));
 }
 
 static crease_status take_in(helping *run)

@@ -3,10 +3,9 @@
 
 /* A sheet of the points of a file: from a sample, the size of its rectangle, the sum over all
  * points in one round or two, and their distances. */
+#include "stream/fit.h"
 #include "base/memory.h"
 #include "cloud/cloud.h"
-#include "crease/crease_stream.h"
-#include "crease/crease_sum.h"
 #include "stream/sample.h"
 
 #include <math.h>
@@ -30,6 +29,7 @@ typedef struct work {
     crease_rows *rows;
     size_t at_once;
     crease_sheet_sum *sum;
+    crease_fit_hands hands; /* who goes through the points */
     double *distances;
     size_t *bins; /* of the logarithms of the distances */
     crease_fit_stream_summary *summary;
@@ -40,6 +40,15 @@ crease_fit_stream_options crease_fit_stream_options_default(void)
     return (crease_fit_stream_options){.sheet = crease_sheet_options_default(),
         .read = crease_read_options_default(),
         .memory = (size_t)1 << 30};
+}
+
+void crease_fit_enclose(const crease_cloud *batch, double low[3], double high[3])
+{
+    for (size_t i = 0; i < batch->count; i++)
+        for (size_t c = 0; c < 3; c++) {
+            low[c] = fmin(low[c], batch->points[3 * i + c]);
+            high[c] = fmax(high[c], batch->points[3 * i + c]);
+        }
 }
 
 static crease_status each_batch(
@@ -63,21 +72,57 @@ static crease_status each_batch(
     return status;
 }
 
+/* ------------------------------------------------------------------------------- by this process
+ * --
+ */
+
 static crease_status widen(work *run, const crease_cloud *batch)
 {
     crease_fit_stream_summary *const s = run->summary;
-    for (size_t i = 0; i < batch->count; i++)
-        for (size_t c = 0; c < 3; c++) {
-            s->lowest[c] = fmin(s->lowest[c], batch->points[3 * i + c]);
-            s->highest[c] = fmax(s->highest[c], batch->points[3 * i + c]);
-        }
+    crease_fit_enclose(batch, s->lowest, s->highest);
     return crease_sheet_sum_widen(run->context, run->sum, batch->points, batch->count);
+}
+
+static crease_status widen_all(void *user, crease_sheet_sum *sum, crease_fit_stream_summary *s)
+{
+    (void)sum, (void)s;
+    return each_batch(user, "reading", widen);
 }
 
 static crease_status add(work *run, const crease_cloud *batch)
 {
     return crease_sheet_sum_add(run->context, run->sum, batch->points, batch->count);
 }
+
+static crease_status add_all(void *user, crease_sheet_sum *sum)
+{
+    (void)sum;
+    return each_batch(user, "adding points", add);
+}
+
+static void tell(work *run, const double *distances, size_t count);
+
+static crease_status measure(work *run, const crease_cloud *batch)
+{
+    const crease_status status = crease_sheet_sum_distances(
+        run->context, run->sum, batch->points, batch->count, run->distances);
+    if (status == CREASE_OK)
+        tell(run, run->distances, batch->count);
+    return status;
+}
+
+static crease_status measure_all(
+    void *user, crease_sheet_sum *sum, crease_fit_told *take, void *taking)
+{
+    (void)sum, (void)take, (void)taking;
+    work *const run = user;
+    run->distances = crease_allocate(run->context, run->at_once, sizeof *run->distances);
+    return run->distances ? each_batch(run, "measuring", measure) : CREASE_ERROR_NO_MEMORY;
+}
+
+/* ------------------------------------------------------------------------------------- distances
+ * --
+ */
 
 /* Bins are for 1e-19 to 1; what is less or more is in the first or last. */
 static size_t bin_of(double distance, double size)
@@ -92,20 +137,22 @@ static double size_of(const crease_fit_stream_summary *s)
         s->highest[2] - s->lowest[2]);
 }
 
-static crease_status measure(work *run, const crease_cloud *batch)
+static void tell(work *run, const double *distances, size_t count)
 {
     crease_fit_stream_summary *const s = run->summary;
     const double size = size_of(s);
-    const crease_status status = crease_sheet_sum_distances(
-        run->context, run->sum, batch->points, batch->count, run->distances);
-    for (size_t i = 0; i < batch->count && status == CREASE_OK; i++) {
-        const double distance = fabs(run->distances[i]);
-        s->mean += run->distances[i];
+    for (size_t i = 0; i < count; i++) {
+        const double distance = fabs(distances[i]);
+        s->mean += distances[i];
         s->rms += distance * distance;
         s->most = fmax(s->most, distance);
         run->bins[bin_of(distance, size)]++;
     }
-    return status;
+}
+
+static void take_distances(void *user, const double *distances, size_t count)
+{
+    tell(user, distances, count);
 }
 
 /* The distance that 95 % of the points have at most: the upper end of its bin. */
@@ -122,10 +169,10 @@ static double quantile(const work *run)
 static crease_status summarise(work *run)
 {
     crease_fit_stream_summary *const s = run->summary;
-    run->distances = crease_allocate(run->context, run->at_once, sizeof *run->distances);
     run->bins = crease_allocate(run->context, BINS, sizeof *run->bins);
-    crease_status status = run->distances && run->bins ? each_batch(run, "measuring", measure)
-                                                       : CREASE_ERROR_NO_MEMORY;
+    crease_status status = run->bins
+        ? run->hands.measure(run->hands.user, run->sum, take_distances, run)
+        : CREASE_ERROR_NO_MEMORY;
     if (status == CREASE_OK) {
         s->mean /= (double)s->count;
         s->rms = sqrt(s->rms / (double)s->count);
@@ -140,7 +187,7 @@ static crease_status solve(work *run, crease_sheet **out)
     do {
         crease_sheet_free(*out);
         *out = NULL;
-        status = each_batch(run, "adding points", add);
+        status = run->hands.add(run->hands.user, run->sum);
         if (status == CREASE_OK)
             status = crease_sheet_sum_solve(run->context, run->sum, out);
     } while (status == CREASE_OK && crease_sheet_sum_wants_more(run->sum));
@@ -183,8 +230,10 @@ static crease_status fit(work *run, const crease_fit_stream_options *o, size_t l
         return status;
     run->summary->sampled = crease_cloud_count(*sample);
     status = crease_sheet_sum_create(context, *sample, &o->sheet, &run->sum);
+    if (status == CREASE_OK && run->hands.begin)
+        status = run->hands.begin(run->hands.user, crease_rows_count(run->rows), run->at_once);
     if (status == CREASE_OK)
-        status = each_batch(run, "reading", widen);
+        status = run->hands.widen(run->hands.user, run->sum, run->summary);
     if (status == CREASE_OK)
         status = solve(run, out);
     return status == CREASE_OK ? summarise(run) : status;
@@ -194,6 +243,13 @@ crease_status crease_sheet_fit_stream(crease_context *context, const char *input
     const crease_fit_stream_options *options, crease_fit_stream_summary *summary,
     crease_cloud **sample, crease_sheet **out)
 {
+    return crease_sheet_fit_stream_by(context, input, options, NULL, summary, sample, out);
+}
+
+crease_status crease_sheet_fit_stream_by(crease_context *context, const char *input,
+    const crease_fit_stream_options *options, const crease_fit_hands *hands,
+    crease_fit_stream_summary *summary, crease_cloud **sample, crease_sheet **out)
+{
     const crease_fit_stream_options chosen =
         options ? *options : crease_fit_stream_options_default();
     *summary = (crease_fit_stream_summary){
@@ -202,6 +258,10 @@ crease_status crease_sheet_fit_stream(crease_context *context, const char *input
     *out = NULL;
     size_t left = 0;
     work run = {.context = context, .summary = summary};
+    run.hands = hands
+        ? *hands
+        : (crease_fit_hands){
+              .user = &run, .widen = widen_all, .add = add_all, .measure = measure_all};
     crease_status status = budget(context, &chosen, &left);
     if (status == CREASE_OK)
         status = crease_rows_open(context, input, &chosen.read, &run.rows);

@@ -54,6 +54,19 @@ check "it is told once" test "$(printf '%s' "$printed" | grep -c 'point 1')" = 1
 # what cannot be written is said by rank 0, and the others end
 expect_ranks 4 1 "cannot be written" detect bracket.ply -o nowhere/none.ply --memory 60M
 
+# a sheet: the normal equations have one order
+expect 0 "" example panel --count 60000 -o panel.ply
+expect 0 "" fit panel.ply --net 20x24 --memory 60M -t 1 -o one.stl --report one.json
+for n in 2 3 8; do
+    rm -f many.stl
+    expect_ranks "$n" 0 "wrote many.stl" fit panel.ply --net 20x24 --memory 60M -t 1 -o many.stl --report many.json
+    same "a sheet, $n ranks" one.stl many.stl
+    grep '"rms"\|"p95"\|"max"\|"mean"' one.json >one.says
+    grep '"rms"\|"p95"\|"max"\|"mean"' many.json >many.says
+    check "the report tells of deviations" test -s one.says
+    same "its report, $n ranks" one.says many.says
+done
+
 # a rank that does not see the file
 if unshare -m true 2>/dev/null; then
     mkdir seen
@@ -66,5 +79,8 @@ END
     chmod +x blind
     mpi=$PWD/blind expect_ranks 3 3 "rank 2, which reads a share of the file itself" detect seen/bracket.ply -o none.ply --memory 60M
     check "an unseen file leaves none" test ! -e none.ply
+    cp panel.ply seen
+    mpi=$PWD/blind expect_ranks 3 3 "rank 2, which reads a share of the file itself" fit seen/panel.ply --net 20x24 --memory 60M -o none.stl
+    check "nor has a sheet one" test ! -e none.stl
 fi
 finish

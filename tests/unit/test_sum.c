@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "crease/crease_stream.h"
-#include "crease/crease_sum.h"
+#include "fit/sum.h"
 
 #include <unistd.h>
 
@@ -257,6 +257,80 @@ static void given_a_file_then_all_its_points_are_fitted_and_measured(void **stat
     assert_int_equal(rmdir(folder), 0);
 }
 
+/* The sheet so far as another process has it. */
+static crease_sheet_sum *given_copy(crease_context *context, const crease_sheet_sum *sum)
+{
+    crease_sheet_sum *copy = NULL;
+    crease_status status = CREASE_ERROR_NO_MEMORY;
+    char *bytes = NULL;
+    size_t size = 0;
+    assert_int_equal(crease_sheet_sum_pack(context, sum, &bytes, &size), CREASE_OK);
+    for (long n = 0; status != CREASE_OK; n++) {
+        crease_context_fail_allocation(context, n);
+        status = crease_sheet_sum_unpack(context, bytes, &copy);
+        crease_context_fail_allocation(context, -1);
+        assert_true(n < 1000 && (status == CREASE_OK || status == CREASE_ERROR_NO_MEMORY));
+    }
+    free(bytes);
+    return copy;
+}
+
+/* One round, every batch observed by a copy. */
+static crease_sheet *when_shared_out(crease_context *context, crease_sheet_sum *sum,
+    const double *points, size_t count, size_t batch)
+{
+    double *const numbers = calloc(batch, CREASE_OBSERVED * sizeof *numbers);
+    crease_sheet *sheet = NULL;
+    assert_non_null(numbers);
+    assert_int_equal(crease_sheet_sum_begin(context, sum), CREASE_OK);
+    for (size_t at = 0; at < count; at += batch) {
+        const size_t some = count - at < batch ? count - at : batch;
+        crease_sheet_sum *const copy = given_copy(context, sum);
+        assert_int_equal(
+            crease_sheet_sum_observe(context, copy, points + 3 * at, some, numbers), CREASE_OK);
+        assert_int_equal(crease_sheet_sum_take(context, sum, numbers, some), CREASE_OK);
+        crease_sheet_sum_free(copy);
+    }
+    assert_int_equal(crease_sheet_sum_solve(context, sum, &sheet), CREASE_OK);
+    free(numbers);
+    return sheet;
+}
+
+static void given_points_observed_elsewhere_then_the_sheet_is_the_same_bytes(void **state)
+{
+    enum { COUNT = 12000, BATCH = 5000 };
+    crease_context *context = given_context_with_threads(1);
+    double *points = given_roof(COUNT, 1e-3), a[7] = {0}, b[7] = {0};
+    crease_sheet_sum *alone = given_sum(context, points, 9, 11);
+    crease_sheet_sum *shared = given_sum(context, points, 9, 11),
+                     *copy = given_copy(context, shared);
+    crease_sheet *one = NULL;
+    assert_int_equal(crease_sheet_sum_widen(context, alone, points, COUNT), CREASE_OK);
+    assert_int_equal(crease_sheet_sum_widen(context, copy, points, COUNT), CREASE_OK);
+    shared->all = copy->all;
+    for (size_t at = 0; at < COUNT; at += BATCH)
+        assert_int_equal(crease_sheet_sum_add(context, alone, points + 3 * at,
+                             COUNT - at < BATCH ? COUNT - at : BATCH),
+            CREASE_OK);
+    assert_int_equal(crease_sheet_sum_solve(context, alone, &one), CREASE_OK);
+    crease_sheet *other = when_shared_out(context, shared, points, COUNT, BATCH);
+    const crease_surface_parts p = crease_surface_parts_of(crease_sheet_surface(one));
+    const crease_surface_parts q = crease_surface_parts_of(crease_sheet_surface(other));
+    assert_memory_equal(p.control_points, q.control_points, 9 * 11 * 3 * sizeof(double));
+    crease_sheet_sum_free(copy);
+    copy = given_copy(context, shared);
+    assert_int_equal(crease_sheet_sum_distances(context, alone, points, 7, a), CREASE_OK);
+    assert_int_equal(crease_sheet_sum_distances(context, copy, points, 7, b), CREASE_OK);
+    assert_memory_equal(a, b, sizeof a);
+    crease_sheet_free(one);
+    crease_sheet_free(other);
+    crease_sheet_sum_free(copy);
+    crease_sheet_sum_free(alone);
+    crease_sheet_sum_free(shared);
+    free(points);
+    crease_context_free(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -266,6 +340,7 @@ int main(void)
         cmocka_unit_test(given_any_number_of_threads_then_the_bytes_are_the_same),
         cmocka_unit_test(given_outliers_far_away_then_the_rectangle_stays),
         cmocka_unit_test(given_a_wrong_order_or_value_then_it_is_told),
+        cmocka_unit_test(given_points_observed_elsewhere_then_the_sheet_is_the_same_bytes),
         cmocka_unit_test(given_a_file_then_all_its_points_are_fitted_and_measured),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
