@@ -1,286 +1,30 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* Regions from a cloud: the stages of segmentation.h in turn, until nothing changes. */
+/* Regions of a cloud: its surroundings, the rounds of the segmentation, and what they leave. */
 #include "segment/region.h"
 
 #include "base/memory.h"
-#include "base/select.h"
-#include "base/store.h"
 #include "cloud/blur.h"
 #include "cloud/cloud.h"
 #include "segment/excerpt.h"
-#include "segment/fillet.h"
+#include "segment/result.h"
 #include "segment/segmentation.h"
+#include "segment/surroundings.h"
 #include "segment/uncertainty.h"
-#include "space/morton.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    LEAST_POINTS = 8,
-    ROUNDS = 6,
-    LABEL_ROUNDS = 12,
-    FIRST_SAMPLE = 300,
-    FIRST_LARGE = 100,
-    SAMPLE = 800,
-    LARGE = 50,
-    LARGE_SAMPLE = 2000,
-    STILL = 1000 /* at most one label in this many changes: the result stands */
-};
+enum { LEAST_POINTS = 8 };
 
 static const double normals_agree = 20.0; /* degrees between a point's normal and its region's, on
                                              top of twice the error of the normals */
-static const double outlier_sigmas = 5.0;
-static const double waving = 1.5; /* mean square residual of a face, in square sigmas, that shared
-                                     errors leave at most */
 
 crease_regions_options crease_regions_options_default(void)
 {
     return (crease_regions_options){.least_points = LEAST_POINTS};
-}
-
-/* ---------------------------------------------------------------------------------- the line -- */
-
-/* What one round did. */
-typedef struct progress {
-    size_t merged, dropped, reconsidered, changed;
-} progress;
-
-static crease_status relabel(crease_segmentation *seg, int rounds, progress *done)
-{
-    size_t changed = 0;
-    const crease_status status = crease_relabel(seg, rounds, &changed);
-    done->changed += changed;
-    return status;
-}
-
-static void set_sigma(crease_segmentation *seg)
-{
-    for (int i = 0; i < crease_context_threads(seg->context); i++)
-        seg->fitters[i].sigma = seg->sigma;
-}
-
-static crease_status improve(crease_segmentation *seg, int number, progress *done)
-{
-    crease_status status = number == 1 || number == 2 ? crease_grow(seg) : CREASE_OK;
-    if (status == CREASE_OK)
-        status = crease_segmentation_list(seg);
-    if (status == CREASE_OK)
-        status = number ? crease_merge(seg, SAMPLE, LARGE, &done->merged)
-                        : crease_merge(seg, FIRST_SAMPLE, FIRST_LARGE, &done->merged);
-    if (status == CREASE_OK)
-        status = relabel(seg, LABEL_ROUNDS, done);
-    if (status == CREASE_OK && number < 4)
-        status = crease_reconsider(seg, &done->reconsidered);
-    if (status == CREASE_OK && done->reconsidered)
-        status = relabel(seg, LABEL_ROUNDS, &(progress){0});
-    if (status == CREASE_OK)
-        status = crease_give_up(seg, &done->dropped);
-    return status;
-}
-
-static crease_status settle(crease_segmentation *seg, int number, progress *done)
-{
-    const bool keep_kinds = number > 0 || done->reconsidered;
-    crease_status status = crease_refit(seg, number ? LARGE_SAMPLE : SAMPLE, keep_kinds);
-    if (status == CREASE_OK)
-        status = relabel(seg, LABEL_ROUNDS, done);
-    if (status == CREASE_OK) {
-        crease_segmentation_compact(seg);
-        status = crease_refit(seg, LARGE_SAMPLE, keep_kinds);
-    }
-    if (status == CREASE_OK)
-        status = crease_measure_noise(seg);
-    set_sigma(seg);
-    return status;
-}
-
-static bool stands(const crease_segmentation *seg, const progress *done)
-{
-    return done->changed < seg->count / STILL + 1;
-}
-
-static crease_status polish(crease_segmentation *seg)
-{
-    crease_status status = crease_refit_closely(seg);
-    for (int i = 0; i < 2 && status == CREASE_OK; i++) {
-        progress done = {0};
-        status = relabel(seg, LABEL_ROUNDS / 2, &done);
-        if (stands(seg, &done))
-            break;
-        if (status == CREASE_OK)
-            status = crease_refit_closely(seg);
-    }
-    if (status == CREASE_OK)
-        crease_segmentation_compact(seg);
-    return status;
-}
-
-/* Where neighbouring points err alike, a face waves by more than independent errors explain, and
- * falls apart. Its pieces are joined where a simple surface follows them about as well as that. */
-static crease_status join_waves(crease_segmentation *seg)
-{
-    if (!(seg->alike > 1.0))
-        return CREASE_OK;
-    crease_status status = crease_merge_within(seg, SAMPLE, waving);
-    if (status == CREASE_OK)
-        status = relabel(seg, LABEL_ROUNDS, &(progress){0});
-    if (status == CREASE_OK) {
-        crease_segmentation_compact(seg);
-        status = crease_refit(seg, LARGE_SAMPLE, true);
-    }
-    return status;
-}
-
-static crease_status unite(crease_segmentation *seg, bool wide)
-{
-    size_t united = 0;
-    const crease_status status = crease_unite(seg, wide, &united);
-    return status == CREASE_OK && united ? polish(seg) : status;
-}
-
-/* Free forms that were found in pieces. Where neighbours err alike the noise would explain too
- * much. */
-static crease_status join_pieces(crease_segmentation *seg)
-{
-    return seg->alike > 1.0 ? CREASE_OK : unite(seg, false);
-}
-
-static crease_status run_stages(crease_segmentation *seg)
-{
-    set_sigma(seg);
-    crease_status status = crease_grow(seg);
-    for (int number = 0; number < ROUNDS && status == CREASE_OK; number++) {
-        progress done = {0};
-        status = improve(seg, number, &done);
-        if (status == CREASE_OK)
-            status = settle(seg, number, &done);
-        if (number > 0 && !done.merged && !done.dropped && !done.reconsidered && stands(seg, &done))
-            break;
-    }
-    if (status == CREASE_OK)
-        status = polish(seg);
-    if (status == CREASE_OK)
-        status = join_waves(seg);
-    if (status == CREASE_OK)
-        status = join_pieces(seg);
-    return status == CREASE_OK ? crease_fillets_find(seg) : status;
-}
-
-/* ------------------------------------------------------------------------------------ result -- */
-
-typedef struct ranked {
-    size_t size, region;
-} ranked;
-
-static int compare_ranks(const void *a, const void *b)
-{
-    const ranked *x = a, *y = b;
-    if (x->size != y->size)
-        return x->size > y->size ? -1 : 1;
-    return x->region < y->region ? -1 : x->region > y->region;
-}
-
-/* Points far from the surface of their region, by the noise or by the region's own residuals where
- * these are larger, are no part of it. Those on rounded edges are beside it by nature. */
-static void set_outliers_aside(
-    crease_regions *regions, const crease_segmentation *seg, size_t region, double *scratch)
-{
-    const size_t begin = seg->first[region], size = crease_segmentation_size(seg, region);
-    double gradient[3];
-    size_t known = 0, beside = 0;
-    for (size_t m = 0; m < size; m++) {
-        const size_t point = seg->members[begin + m];
-        if (regions->rounded && regions->rounded[point])
-            continue;
-        scratch[known++] =
-            fabs(crease_model_distance(&seg->models[region], seg->points + 3 * point, gradient));
-    }
-    const double sigma = regions->noise_sigma;
-    const double median = known ? crease_select(scratch, known, known / 2) : 0.0;
-    const double scale = fmax(1.4826 * median, sigma);
-    double squares = 0.0, cut = 0.0;
-    size_t kept = 0;
-    for (size_t m = 0; m < size; m++) {
-        const size_t point = seg->members[begin + m];
-        if (regions->rounded && regions->rounded[point]) {
-            beside++;
-            continue;
-        }
-        const double d =
-            crease_model_distance(&seg->models[region], seg->points + 3 * point, gradient);
-        if (fabs(d) > outlier_sigmas * scale) {
-            regions->labels[point] = CREASE_NO_REGION;
-            continue;
-        }
-        squares += d * d;
-        cut += fmin(d * d / (sigma * sigma), CREASE_COST_CUT);
-        kept++;
-    }
-    regions->sizes[region] = kept + beside;
-    regions->rms[region] = kept ? sqrt(squares / (double)kept) : 0.0;
-    seg->models[region].chi = kept ? cut / (double)kept : 0.0;
-}
-
-/* Numbers the regions from large to small. */
-static crease_status rank_regions(crease_context *context, crease_regions *regions)
-{
-    const size_t count = regions->region_count;
-    crease_status status = CREASE_ERROR_NO_MEMORY;
-    ranked *const ranks = crease_allocate(context, count, sizeof *ranks);
-    int32_t *const number = crease_allocate(context, count, sizeof *number);
-    crease_model *const models = crease_duplicate(context, regions->models, count, sizeof *models);
-    double *const rms = crease_duplicate(context, regions->rms, count, sizeof *rms);
-    if (ranks && number && models && rms) {
-        for (size_t r = 0; r < count; r++)
-            ranks[r] = (ranked){regions->sizes[r], r};
-        qsort(ranks, count, sizeof *ranks, compare_ranks);
-        for (size_t r = 0; r < count; r++) {
-            const size_t from = ranks[r].region;
-            number[from] = (int32_t)r;
-            regions->models[r] = models[from];
-            regions->rms[r] = rms[from];
-            regions->sizes[r] = ranks[r].size;
-        }
-        for (size_t r = 0; r < count; r++)
-            for (int i = 0; i < regions->models[r].tangent_count; i++)
-                regions->models[r].tangent[i] = number[models[ranks[r].region].tangent[i]];
-        for (size_t i = 0; i < regions->count; i++)
-            if (regions->labels[i] >= 0)
-                regions->labels[i] = number[regions->labels[i]];
-        status = CREASE_OK;
-    }
-    free(ranks);
-    free(number);
-    free(models);
-    free(rms);
-    return status;
-}
-
-/* Takes the models over from the segmentation. */
-static crease_status take_models(
-    crease_context *context, crease_regions *regions, crease_segmentation *seg)
-{
-    const size_t count = seg->region_count;
-    regions->sizes = crease_allocate(context, count, sizeof *regions->sizes);
-    regions->rms = crease_allocate(context, count, sizeof *regions->rms);
-    double *const scratch = crease_allocate(context, regions->count, sizeof *scratch);
-    const bool enough = regions->sizes && regions->rms && scratch;
-    regions->sigma = seg->sigma;
-    regions->noise_sigma = seg->sigma / sqrt(seg->alike);
-    for (size_t r = 0; r < count && enough; r++)
-        set_outliers_aside(regions, seg, r, scratch);
-    free(scratch);
-    if (!enough)
-        return CREASE_ERROR_NO_MEMORY;
-    regions->models = seg->models;
-    regions->region_count = count;
-    seg->models = NULL;
-    seg->region_count = 0;
-    return rank_regions(context, regions);
 }
 
 static crease_status by_index(crease_context *context, crease_regions *regions)
@@ -311,7 +55,7 @@ static crease_status run(crease_segmentation *seg)
 {
     memset(seg->labels, 0xff, seg->count * sizeof *seg->labels);
     seg->members = crease_allocate(seg->context, seg->count, sizeof *seg->members);
-    return seg->members ? run_stages(seg) : CREASE_ERROR_NO_MEMORY;
+    return seg->members ? crease_rounds_run(seg) : CREASE_ERROR_NO_MEMORY;
 }
 
 /* Runs them on the points beside rounded edges, and continues the regions there. */
@@ -374,9 +118,9 @@ static crease_status segment(
     if (status == CREASE_OK)
         status = regions->rounded ? run_beside_edges(&seg, regions) : run(&seg);
     if (status == CREASE_OK && options->united)
-        status = unite(&seg, true);
+        status = crease_rounds_unite(&seg, true);
     if (status == CREASE_OK)
-        status = take_models(context, regions, &seg);
+        status = crease_regions_take(context, regions, &seg);
     for (size_t r = 0; r < seg.region_count; r++)
         crease_model_clear(&seg.models[r]);
     crease_fitters_free(context, seg.fitters);
@@ -385,127 +129,6 @@ static crease_status segment(
     free(seg.members);
     free(seg.first);
     return status;
-}
-
-/* Marks the points on rounded edges, if the scanner has rounded them all. */
-static crease_status find_rounded(crease_context *context, crease_regions *regions)
-{
-    bool blurred = false;
-    if (!(regions->noise->alike > 1.0))
-        return CREASE_OK;
-    regions->rounded = crease_allocate(context, regions->count, sizeof *regions->rounded);
-    if (!regions->rounded)
-        return CREASE_ERROR_NO_MEMORY;
-    const crease_status status = crease_blur_find(
-        context, regions->points, regions->count, regions->noise, &blurred, regions->rounded);
-    if (!blurred) {
-        free(regions->rounded);
-        regions->rounded = NULL;
-    }
-    return status;
-}
-
-/* The points in Morton order. */
-static crease_status sort_points(
-    crease_context *context, crease_regions *regions, const crease_cloud *cloud)
-{
-    const size_t count = regions->count;
-    regions->order = crease_allocate(context, count, sizeof *regions->order);
-    regions->points = crease_allocate(context, count, 3 * sizeof *regions->points);
-    regions->labels = crease_allocate(context, count, sizeof *regions->labels);
-    uint64_t *const keys = crease_allocate(context, count, sizeof *keys);
-    crease_status status = CREASE_ERROR_NO_MEMORY;
-    if (regions->order && regions->points && regions->labels && keys)
-        status =
-            crease_morton_sort(context, crease_cloud_points(cloud), count, keys, regions->order);
-    free(keys);
-    for (size_t i = 0; i < count && status == CREASE_OK; i++)
-        memcpy(regions->points + 3 * i, crease_cloud_points(cloud) + 3 * (size_t)regions->order[i],
-            3 * sizeof(double));
-    return status;
-}
-
-static crease_status find_surroundings(crease_context *context, void *user, const double *points,
-    size_t count, int k, crease_neighbours **neighbours, crease_noise **noise)
-{
-    (void)user;
-    const crease_cloud sorted = {.count = count, .points = (double *)(uintptr_t)points};
-    const crease_status status = crease_neighbours_find(context, &sorted, k, neighbours);
-    return status == CREASE_OK ? crease_noise_estimate_from(context, points, *neighbours, noise)
-                               : status;
-}
-
-static void list_arrays(const crease_regions *regions, double numbers[3], crease_stored arrays[5])
-{
-    const crease_noise *const noise = regions->noise;
-    const size_t count = regions->count, k = (size_t)regions->neighbours->k;
-    arrays[0] = (crease_stored){regions->neighbours->indices, count * k * sizeof(uint32_t)};
-    arrays[1] = (crease_stored){noise->normals, 3 * count * sizeof *noise->normals};
-    arrays[2] = (crease_stored){noise->scores, count * sizeof *noise->scores};
-    arrays[3] = (crease_stored){noise->local_spacing, count * sizeof *noise->local_spacing};
-    arrays[4] = (crease_stored){numbers, 3 * sizeof *numbers};
-}
-
-static uint64_t key_of(const crease_regions *regions)
-{
-    const uint64_t key = crease_store_key(0, crease_version(), strlen(crease_version()));
-    return crease_store_key(key, regions->points, 3 * regions->count * sizeof *regions->points);
-}
-
-/* What is known of the surroundings already. *known: false when it is nothing. */
-static crease_status load(crease_context *context, crease_regions *regions, int k, bool *known)
-{
-    crease_stored arrays[5];
-    double numbers[3];
-    crease_status status =
-        crease_neighbours_create(context, regions->count, k, &regions->neighbours);
-    if (status == CREASE_OK)
-        status = crease_noise_create(context, regions->count, &regions->noise);
-    if (status != CREASE_OK)
-        return status;
-    list_arrays(regions, numbers, arrays);
-    *known = crease_store_load(context, "surroundings", key_of(regions), arrays, 5);
-    if (*known) {
-        regions->noise->spacing = numbers[0];
-        regions->noise->sigma = numbers[1];
-        regions->noise->alike = numbers[2];
-        return CREASE_OK;
-    }
-    crease_neighbours_free(regions->neighbours);
-    crease_noise_free(regions->noise);
-    regions->neighbours = NULL;
-    regions->noise = NULL;
-    return CREASE_OK;
-}
-
-static void save(crease_context *context, const crease_regions *regions)
-{
-    crease_stored arrays[5];
-    double numbers[3] = {regions->noise->spacing, regions->noise->sigma, regions->noise->alike};
-    list_arrays(regions, numbers, arrays);
-    crease_store_save(context, "surroundings", key_of(regions), arrays, 5);
-}
-
-static crease_status find(crease_context *context, crease_regions *regions,
-    const crease_regions_options *options, crease_surroundings_find *surroundings, void *user)
-{
-    const int k =
-        regions->count < CREASE_NOISE_NEIGHBOURS ? (int)regions->count : CREASE_NOISE_NEIGHBOURS;
-    bool known = false;
-    crease_status status = context->kept ? load(context, regions, k, &known) : CREASE_OK;
-    if (status == CREASE_OK && !known) {
-        status = surroundings(context, user, regions->points, regions->count, k,
-            &regions->neighbours, &regions->noise);
-        if (status == CREASE_OK && context->kept)
-            save(context, regions);
-    }
-    if (status == CREASE_OK)
-        status = find_rounded(context, regions);
-    if (status != CREASE_OK)
-        return status;
-    crease_stage(context, "regions");
-    status = segment(context, regions, options);
-    return status == CREASE_OK ? by_index(context, regions) : status;
 }
 
 static crease_status check(
@@ -527,7 +150,7 @@ static crease_status check(
 crease_status crease_regions_find(crease_context *context, const crease_cloud *cloud,
     const crease_regions_options *options, crease_regions **out)
 {
-    return crease_regions_find_by(context, cloud, options, find_surroundings, NULL, out);
+    return crease_regions_find_by(context, cloud, options, crease_surroundings_here, NULL, out);
 }
 
 crease_status crease_regions_find_by(crease_context *context, const crease_cloud *cloud,
@@ -544,9 +167,13 @@ crease_status crease_regions_find_by(crease_context *context, const crease_cloud
         return CREASE_ERROR_NO_MEMORY;
     regions->count = crease_cloud_count(cloud);
     regions->options = chosen;
-    status = sort_points(context, regions, cloud);
+    status = crease_regions_surround(context, regions, cloud, surroundings, user);
+    if (status == CREASE_OK) {
+        crease_stage(context, "regions");
+        status = segment(context, regions, &chosen);
+    }
     if (status == CREASE_OK)
-        status = find(context, regions, &chosen, surroundings, user);
+        status = by_index(context, regions);
     if (status == CREASE_OK)
         *out = regions;
     else

@@ -115,4 +115,9 @@ crease_status crease_unite(crease_segmentation *seg, bool wide, size_t *united);
 /* Estimates sigma again, from residuals deep inside regions. */
 crease_status crease_measure_noise(crease_segmentation *seg);
 
+/* All of these in turn, until nothing changes. */
+crease_status crease_rounds_run(crease_segmentation *seg);
+/* Unites pieces of one smooth surface, wide: all that join without an angle, and fits again. */
+crease_status crease_rounds_unite(crease_segmentation *seg, bool wide);
+
 #endif
