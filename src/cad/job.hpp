@@ -10,7 +10,7 @@
 #include "cad/sheet.hpp"
 #include "crease/crease_cad.h"
 #include "model/carriers.h"
-#include "model/topology.h"
+#include "model/assembly.h"
 
 #include <TopoDS_Shape.hxx>
 #include <gp_Ax3.hxx>

@@ -129,13 +129,6 @@ bool crease_edge_is_wild(const crease_edge *edge)
     return false;
 }
 
-void crease_edge_clear(crease_edge *edge)
-{
-    free(edge->points);
-    edge->points = NULL;
-    edge->count = edge->room = 0;
-}
-
 /* ---------------------------------------------------------------------------------- graph -- */
 
 crease_status crease_graph_vertex(crease_graph *graph, const double place[3], int32_t *out)

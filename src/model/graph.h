@@ -46,7 +46,6 @@ double crease_edge_distance(const crease_edge *edge, const double place[3]);
 /* Whether the edge turns more from step to step than the common curve of two surfaces that cut each
  * other does: they wave around each other. Its ends may be beside that. */
 bool crease_edge_is_wild(const crease_edge *edge);
-void crease_edge_clear(crease_edge *edge);
 
 /* Ends of edges of a region at a vertex; of all regions when region is negative. */
 size_t crease_graph_ends(const crease_graph *graph, int32_t vertex, int64_t region);

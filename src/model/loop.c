@@ -27,13 +27,6 @@ static const double *half_point(const crease_graph *graph, crease_half half, siz
 
 /* ---------------------------------------------------------------------------------- lists -- */
 
-void crease_loop_clear(crease_loop *loop)
-{
-    free(loop->halves);
-    free(loop->uv);
-    *loop = (crease_loop){.count = 0};
-}
-
 void crease_loops_clear(crease_loops *loops)
 {
     for (size_t i = 0; i < loops->count; i++)

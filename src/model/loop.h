@@ -35,7 +35,6 @@ double crease_loop_mean(const crease_loop *loop, int direction);
 int32_t crease_half_vertex(const crease_graph *graph, crease_half half, int end);
 /* The vector whose length is the area that a loop encloses in space, across it. */
 void crease_loop_area_vector(const crease_graph *graph, const crease_loop *loop, double out[3]);
-void crease_loop_clear(crease_loop *loop);
 void crease_loops_clear(crease_loops *loops);
 
 #endif

@@ -83,15 +83,16 @@ typedef struct crease_topology {
     crease_face *faces;
 } crease_topology;
 
-/* bordered: the points end at a border, so that faces may have rims; otherwise they are of a closed
- * body, of which a scan may have missed something. Errors: NO_MEMORY, CANCELLED. */
-CREASE_API crease_status crease_topology_find(
-    crease_context *context, const crease_regions *regions, bool bordered, crease_topology **out);
+/* Without vertices, edges, faces and charts. NULL when memory ran out. */
+crease_topology *crease_topology_create(crease_context *context, const crease_regions *regions);
 /* Whether an edge has one face only. */
 static inline bool crease_edge_is_rim(const crease_edge *edge)
 {
     return edge->regions[1] == CREASE_NO_OTHER;
 }
+void crease_edge_clear(crease_edge *edge);
+void crease_loop_clear(crease_loop *loop);
+void crease_topology_clear_edges(crease_topology *topology);
 CREASE_API void crease_topology_free(crease_topology *topology);
 
 #ifdef __cplusplus
