@@ -14,7 +14,6 @@ enum { FIRST_LINES = 2 };
 
 /* A more complicated layout must lower the score by this much: odds of 20 to 1. */
 static const double MARGIN = 6.0;
-static const double PAIR = 2.0; /* spacings: lines that are nearer may be one */
 
 bool crease_explore_keep_net(crease_layout *layout, const crease_bounds *bounds)
 {
@@ -198,54 +197,11 @@ static crease_status thin_out(
     return status;
 }
 
-/* One line between two that are close together, refined, when that does about as well: a pair is
- * for steps. */
-static crease_status merge_pair(crease_context *context, crease_draft *draft,
-    const crease_bounds *bounds, int direction, size_t line, bool *taken)
-{
-    const double *const lines = draft->layout.axis[direction].lines;
-    crease_layout layout = draft->layout;
-    *taken = false;
-    if (!(lines[line + 1] - lines[line] < PAIR * draft->samples->spacing))
-        return CREASE_OK;
-    layout.axis[direction].lines[line] = 0.5 * (lines[line] + lines[line + 1]);
-    crease_layout_remove(&layout, direction, line + 1);
-    crease_explore_keep_net(&layout, bounds);
-    crease_draft trial = crease_draft_variant(draft, &layout, &draft->frame);
-    crease_status status = crease_draft_fit(context, &trial, ROUNDS, CREASE_CHOICE_ALL);
-    if (status == CREASE_OK)
-        status = crease_lines_refine(context, &trial, 12, false);
-    if (status == CREASE_OK && trial.score < draft->score + MARGIN &&
-        (crease_draft_bounded(&trial) || !crease_draft_bounded(draft))) {
-        crease_draft_free(draft);
-        *draft = trial;
-        *taken = true;
-        return CREASE_OK;
-    }
-    crease_draft_free(&trial);
-    return status == CREASE_ERROR_NUMERIC ? CREASE_OK : status;
-}
-
-static crease_status merge_pairs(
-    crease_context *context, crease_draft *draft, const crease_bounds *bounds)
-{
-    crease_status status = CREASE_OK;
-    for (int d = 0; d < 2; d++)
-        for (size_t l = 0; l + 1 < draft->layout.axis[d].line_count && status == CREASE_OK;) {
-            bool taken;
-            status = merge_pair(context, draft, bounds, d, l, &taken);
-            l += taken ? 0 : 1;
-        }
-    return status;
-}
-
 crease_status crease_explore_prune(
     crease_context *context, crease_draft *draft, const crease_bounds *bounds)
 {
     crease_draft_place(draft);
     crease_status status = crease_draft_fit(context, draft, ROUNDS, CREASE_CHOICE_NEAR);
-    if (status == CREASE_OK)
-        status = merge_pairs(context, draft, bounds);
     if (status == CREASE_OK)
         status = thin_out(context, draft, bounds);
     /* A simple knot of order 2 is a crease itself. */

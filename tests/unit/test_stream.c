@@ -352,7 +352,7 @@ static void expect_same_labels(crease_context *context, const crease_cloud *clou
 static void given_labelling_as_bytes_then_another_process_labels_alike(void **state)
 {
     crease_context *context = given_context_with_threads(1);
-    crease_cloud *cloud = given_scan(context, 3000, 0.01), *sample = NULL;
+    crease_cloud *cloud = given_scan(context, 5000, 0.01), *sample = NULL;
     crease_overview overview = {0};
     crease_regions *regions = NULL;
     crease_network *network = NULL;
@@ -361,7 +361,7 @@ static void given_labelling_as_bytes_then_another_process_labels_alike(void **st
     size_t total = 0, size = 0;
     char *bytes = NULL;
     assert_int_equal(
-        crease_cloud_read_sample(context, input, NULL, 1500, &sample, &total), CREASE_OK);
+        crease_cloud_read_sample(context, input, NULL, 2500, &sample, &total), CREASE_OK);
     assert_int_equal(crease_regions_find(context, sample, NULL, &overview.regions), CREASE_OK);
     assert_int_equal(
         crease_network_find(context, overview.regions, NULL, &overview.network), CREASE_OK);
