@@ -66,9 +66,10 @@ CREASE_INLINE void cubic_slopes(double t, double unit, double out[4])
     out[3] = 0.5 * t * t / unit;
 }
 
-CREASE_INLINE double sum_of(crease_four values)
+/* By address: as an argument a vector's place would depend on the instruction set. */
+CREASE_INLINE double sum_of(const crease_four *values)
 {
-    return (values[0] + values[1]) + (values[2] + values[3]);
+    return ((*values)[0] + (*values)[1]) + ((*values)[2] + (*values)[3]);
 }
 
 CREASE_VECTORISED static double spline_at(
@@ -86,9 +87,11 @@ CREASE_VECTORISED static double spline_at(
         rise += sx[a] * row;
     }
     const crease_four values = *(const crease_four *)cell.y, slopes = *(const crease_four *)sy;
-    slope[0] = sum_of(rise * values);
-    slope[1] = sum_of(along * slopes);
-    return sum_of(along * values);
+    rise *= values;
+    slope[0] = sum_of(&rise);
+    const crease_four aslant = along * slopes, value = along * values;
+    slope[1] = sum_of(&aslant);
+    return sum_of(&value);
 }
 
 double crease_patch_at(const crease_patch *patch, double x, double y, double slope[2])

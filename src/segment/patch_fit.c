@@ -163,11 +163,6 @@ static void add_to_polynomial(crease_fitter *fitter, size_t count, const crease_
     }
 }
 
-CREASE_INLINE void add_four(double *to, crease_four values)
-{
-    *(crease_four *)to += values;
-}
-
 /* Adds a point: blocks of four by four to the matrix, one for each two of the splines of x. Those
  * on the diagonal also fill what is above it, which nobody reads. */
 CREASE_VECTORISED static void add_cell(
@@ -176,15 +171,15 @@ CREASE_VECTORISED static void add_cell(
     const crease_four y = *(const crease_four *)cell->y;
     for (size_t a = 0; a < 4; a++) {
         const double weighted = weight * cell->x[a];
-        add_four(fitter->right + cell->first[a], weighted * height * y);
-        add_four(fitter->support + cell->first[a], cell->x[a] * y);
+        *(crease_four *)(fitter->right + cell->first[a]) += weighted * height * y;
+        *(crease_four *)(fitter->support + cell->first[a]) += cell->x[a] * y;
         for (size_t b = 0; b <= a; b++) {
             const bool below = cell->first[a] >= cell->first[b];
             const size_t row = cell->first[below ? a : b], column = cell->first[below ? b : a];
             const crease_four both = weighted * cell->x[b] * y;
             double *const block = fitter->matrix + n * row + column;
             for (size_t r = 0; r < 4; r++)
-                add_four(block + n * r, cell->y[r] * both);
+                *(crease_four *)(block + n * r) += cell->y[r] * both;
         }
     }
 }
