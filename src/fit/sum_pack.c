@@ -4,6 +4,7 @@
 /* A sheet found so far in another process: its frame and knots, the heights that feet are taken
  * from and that were solved last, and the surface. */
 #include "base/memory.h"
+#include "base/packing.h"
 #include "fit/sum.h"
 
 #include <stdlib.h>
@@ -18,21 +19,9 @@ typedef struct summary {
     uint64_t height[2], below[2], surface[2]; /* control points; 0: there is none */
 } summary;
 
-/* Counts the bytes; writes them where there is room. */
-typedef struct packing {
-    char *to;
-    size_t size;
-} packing;
-
-static void put(packing *out, const void *bytes, size_t size)
+static void put_all(crease_packing *out, const void *user)
 {
-    if (out->to && size)
-        memcpy(out->to + out->size, bytes, size);
-    out->size += size;
-}
-
-static void put_all(packing *out, const crease_sheet_sum *sum)
-{
+    const crease_sheet_sum *const sum = user;
     const crease_draft *const draft = &sum->fitting.draft;
     const crease_height *const height = &draft->height, *const below = &sum->below;
     crease_surface_parts surface = {0};
@@ -48,26 +37,22 @@ static void put_all(packing *out, const crease_sheet_sum *sum)
         .height = {height->count[0], height->count[1]},
         .below = {below->count[0], below->count[1]},
         .surface = {surface.count[0], surface.count[1]}};
-    put(out, &head, sizeof head);
-    put(out, height->coefficients, height->count[0] * height->count[1] * sizeof(double));
-    put(out, below->coefficients, below->count[0] * below->count[1] * sizeof(double));
+    crease_packing_put(out, &head, sizeof head);
+    crease_packing_put(
+        out, height->coefficients, height->count[0] * height->count[1] * sizeof(double));
+    crease_packing_put(
+        out, below->coefficients, below->count[0] * below->count[1] * sizeof(double));
     for (int d = 0; d < 2 && sum->surface; d++)
-        put(out, surface.knots[d], (surface.count[d] + (size_t)surface.order[d]) * sizeof(double));
-    put(out, surface.control_points, 3 * surface.count[0] * surface.count[1] * sizeof(double));
+        crease_packing_put(
+            out, surface.knots[d], (surface.count[d] + (size_t)surface.order[d]) * sizeof(double));
+    crease_packing_put(
+        out, surface.control_points, 3 * surface.count[0] * surface.count[1] * sizeof(double));
 }
 
 crease_status crease_sheet_sum_pack(
     crease_context *context, const crease_sheet_sum *sum, char **bytes, size_t *size)
 {
-    packing out = {0};
-    put_all(&out, sum);
-    *size = out.size;
-    *bytes = out.to = crease_allocate(context, out.size, 1);
-    if (!out.to)
-        return CREASE_ERROR_NO_MEMORY;
-    out.size = 0;
-    put_all(&out, sum);
-    return CREASE_OK;
+    return crease_packing_make(context, put_all, sum, bytes, size);
 }
 
 /* The knots follow from the layout. */

@@ -3,6 +3,7 @@
 
 /* Labelling in another process: the points, labels and surfaces of the sample, and the creases. */
 #include "base/memory.h"
+#include "base/packing.h"
 #include "crease/network.h"
 #include "spline/curve.h"
 #include "stream/labelling.h"
@@ -19,29 +20,19 @@ typedef struct summary {
 
 /* ---------------------------------------------------------------------------------- packing -- */
 
-/* Counts the bytes; writes them where there is room. */
-typedef struct packing {
-    char *to;
-    size_t size;
-} packing;
-
-static void put(packing *out, const void *bytes, size_t size)
-{
-    if (out->to && size)
-        memcpy(out->to + out->size, bytes, size);
-    out->size += size;
-}
-
-static void put_curve(packing *out, const crease_curve *curve)
+static void put_curve(crease_packing *out, const crease_curve *curve)
 {
     const uint64_t sizes[2] = {(uint64_t)curve->order, curve->count};
-    put(out, sizes, sizeof sizes);
-    put(out, curve->knots, (curve->count + (size_t)curve->order) * sizeof *curve->knots);
-    put(out, curve->control_points, 3 * curve->count * sizeof *curve->control_points);
+    crease_packing_put(out, sizes, sizeof sizes);
+    crease_packing_put(
+        out, curve->knots, (curve->count + (size_t)curve->order) * sizeof *curve->knots);
+    crease_packing_put(
+        out, curve->control_points, 3 * curve->count * sizeof *curve->control_points);
 }
 
-static void put_all(packing *out, const crease_labelling *from)
+static void put_all(crease_packing *out, const void *user)
 {
+    const crease_labelling *const from = user;
     const crease_regions *const regions = from->regions;
     const crease_network *const network = from->network;
     const size_t points = regions->count, count = regions->region_count;
@@ -52,14 +43,14 @@ static void put_all(packing *out, const crease_labelling *from)
         .sigma = from->assignment.sigma,
         .links = from->assignment.links,
         .rounded = regions->rounded != NULL};
-    put(out, &head, sizeof head);
-    put(out, regions->points, points * 3 * sizeof *regions->points);
-    put(out, regions->labels, points * sizeof *regions->labels);
-    put(out, regions->rounded, head.rounded ? points : 0);
-    put(out, from->assignment.farthest, count * sizeof *from->assignment.farthest);
-    put(out, regions->models, count * sizeof *regions->models);
+    crease_packing_put(out, &head, sizeof head);
+    crease_packing_put(out, regions->points, points * 3 * sizeof *regions->points);
+    crease_packing_put(out, regions->labels, points * sizeof *regions->labels);
+    crease_packing_put(out, regions->rounded, head.rounded ? points : 0);
+    crease_packing_put(out, from->assignment.farthest, count * sizeof *from->assignment.farthest);
+    crease_packing_put(out, regions->models, count * sizeof *regions->models);
     for (size_t r = 0; r < count; r++)
-        put(out, regions->models[r].patch.coefficients,
+        crease_packing_put(out, regions->models[r].patch.coefficients,
             regions->models[r].patch.coefficient_count * sizeof(double));
     for (size_t c = 0; c < network->count; c++)
         put_curve(out, network->curves[c]);
@@ -68,15 +59,7 @@ static void put_all(packing *out, const crease_labelling *from)
 crease_status crease_labelling_pack(
     crease_context *context, const crease_labelling *labelling, char **bytes, size_t *size)
 {
-    packing out = {0};
-    put_all(&out, labelling);
-    *size = out.size;
-    *bytes = out.to = crease_allocate(context, out.size, 1);
-    if (!out.to)
-        return CREASE_ERROR_NO_MEMORY;
-    out.size = 0;
-    put_all(&out, labelling);
-    return CREASE_OK;
+    return crease_packing_make(context, put_all, labelling, bytes, size);
 }
 
 /* --------------------------------------------------------------------------------- unpacking -- */
