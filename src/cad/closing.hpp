@@ -28,7 +28,7 @@ double volume_of(const TopoDS_Shape &shape, double error = 0.0);
 double area_of(const TopoDS_Shape &shape, double error = 0.0);
 /* Whether every edge has two faces, or is the seam of one. */
 bool is_closed(const TopoDS_Shape &shape);
-/* Closed, of positive volume, and such that which OpenCASCADE finds no fault. */
+/* Closed, of positive volume, and without a fault that OpenCASCADE finds. */
 bool is_sound(const TopoDS_Shape &shape);
 
 } // namespace crease_cad

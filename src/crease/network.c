@@ -12,7 +12,7 @@
 #include "crease/junction.h"
 #include "crease/precision.h"
 #include "crease/profile.h"
-#include "crease/stub.h"
+#include "crease/spur.h"
 #include "crease/support.h"
 
 #include <stdlib.h>
@@ -183,7 +183,7 @@ static crease_status search(
     if (status == CREASE_OK)
         status = crease_junctions_find(context, survey, &chains, &corners);
     if (status == CREASE_OK) {
-        crease_stubs_drop(&chains, &corners, SHORTEST * survey->spacing);
+        crease_spurs_drop(&chains, &corners, SHORTEST * survey->spacing);
         status = make_curves(context, survey, &chains, &corners, network);
     }
     if (status == CREASE_OK)

@@ -5,7 +5,7 @@
 #include "given_models.h"
 
 #include "base/frame.h"
-#include "crease/stub.h"
+#include "crease/spur.h"
 
 static const double S = 1.0 / 24;
 
@@ -680,11 +680,11 @@ static crease_chain given_chain(crease_context *context, double length, int32_t 
     return chain;
 }
 
-static void given_stubs_when_dropped_then_chains_that_lead_on_stay(void **state)
+static void given_spurs_when_dropped_then_chains_that_lead_on_stay(void **state)
 {
     crease_context *context = given_context();
     /* Corner 0: of the short loop alone; 1: three ends; 2: two ends, at x = 0.9; 3: an end of a
-     * long chain alone; 4: of a stub alone. */
+     * long chain alone; 4: of a spur alone. */
     crease_junction places[5] = {{.valence = 2}, {.valence = 3}, {.place = {0.9}, .valence = 2},
         {.place = {7}, .valence = 1}, {.place = {0.9}, .valence = 1}};
     crease_junctions corners = {5, places};
@@ -698,7 +698,7 @@ static void given_stubs_when_dropped_then_chains_that_lead_on_stay(void **state)
     for (size_t i = 0; i < sizeof given / sizeof *given; i++)
         assert_int_equal(crease_chains_take(context, &chains, &given[i]), CREASE_OK);
 
-    crease_stubs_drop(&chains, &corners, 1.0);
+    crease_spurs_drop(&chains, &corners, 1.0);
 
     assert_int_equal(chains.count, 4);
     assert_int_equal(corners.count, 3);
@@ -741,7 +741,7 @@ int main(void)
         cmocka_unit_test(given_cancelled_context_when_found_then_cancelled),
         cmocka_unit_test(given_rib_on_plate_when_found_then_crease_at_its_foot),
         cmocka_unit_test(given_surfaces_that_cross_when_found_then_no_crease),
-        cmocka_unit_test(given_stubs_when_dropped_then_chains_that_lead_on_stay),
+        cmocka_unit_test(given_spurs_when_dropped_then_chains_that_lead_on_stay),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

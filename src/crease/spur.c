@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-#include "crease/stub.h"
+#include "crease/spur.h"
 
 #include "base/vector.h"
 
@@ -42,7 +42,7 @@ static void compact(crease_chains *chains, crease_junctions *corners)
     corners->count = kept;
 }
 
-void crease_stubs_drop(crease_chains *chains, crease_junctions *corners, double length)
+void crease_spurs_drop(crease_chains *chains, crease_junctions *corners, double length)
 {
     size_t kept = 0;
     for (size_t i = 0; i < chains->count; i++) {
