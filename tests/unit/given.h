@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* What every test begins with: cmocka in its required include order, and a context. */
+/* What every test begins with: cmocka in its required include order, a context and a cloud. */
 #ifndef CREASE_TESTS_GIVEN_H
 #define CREASE_TESTS_GIVEN_H
 
@@ -36,6 +36,17 @@ static inline crease_context *given_context(void)
 {
     const char *const threads = getenv("CREASE_TEST_THREADS");
     return given_context_with_threads(threads ? atoi(threads) : 2);
+}
+
+/* x, y, z of each point. */
+static inline crease_cloud *given_cloud_of(
+    crease_context *context, const double *points, size_t count)
+{
+    const crease_cloud_parts parts = {
+        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
+    crease_cloud *cloud = NULL;
+    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    return cloud;
 }
 
 #define assert_near(a, b, tolerance)                                                               \

@@ -23,8 +23,7 @@ typedef struct built {
 static built build(const given_body *body, given_points points)
 {
     built b = {.context = given_context_with_threads(1)};
-    const crease_cloud_parts parts = {.count = points.count, .points = points.points};
-    assert_int_equal(crease_cloud_create(b.context, &parts, &b.cloud), CREASE_OK);
+    b.cloud = given_cloud_of(b.context, points.points, points.count);
     b.regions = given_regions(b.context, body, points, S, 0);
     b.regions->sizes = calloc(body->count, sizeof *b.regions->sizes);
     b.regions->labels_by_index = points.labels;

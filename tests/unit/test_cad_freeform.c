@@ -83,8 +83,7 @@ typedef struct scene {
 static scene when_divided(vase v)
 {
     scene s = {.context = given_context_with_threads(1)};
-    const crease_cloud_parts parts = {.count = v.count, .points = v.points[0]};
-    assert_int_equal(crease_cloud_create(s.context, &parts, &s.cloud), CREASE_OK);
+    s.cloud = given_cloud_of(s.context, v.points[0], v.count);
     assert_int_equal(crease_regions_find(s.context, s.cloud, NULL, &s.regions), CREASE_OK);
     free(v.points);
     return s;

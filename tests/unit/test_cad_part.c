@@ -22,8 +22,7 @@ typedef struct built {
 static built given_part_cloud(given_points from, int threads)
 {
     built b = {.context = given_context_with_threads(threads)};
-    const crease_cloud_parts parts = {.count = from.count, .points = from.points};
-    assert_int_equal(crease_cloud_create(b.context, &parts, &b.cloud), CREASE_OK);
+    b.cloud = given_cloud_of(b.context, from.points, from.count);
     free(from.points);
     free(from.labels);
     assert_int_equal(crease_regions_find(b.context, b.cloud, NULL, &b.regions), CREASE_OK);

@@ -84,9 +84,7 @@ static scene *given(region *has, height *z)
         s->points[s->count][1] = y;
         s->points[s->count++][2] = z(x, y);
     }
-    const crease_cloud_parts parts = {
-        .count = s->count, .points = s->points[0], .coordinate_type = CREASE_TYPE_FLOAT64};
-    assert_int_equal(crease_cloud_create(s->context, &parts, &s->cloud), CREASE_OK);
+    s->cloud = given_cloud_of(s->context, s->points[0], s->count);
     return s;
 }
 

@@ -30,8 +30,7 @@ static scene given_heights(double (*height)(double x, double y), double noise)
         const double z = height(x, y) + noise * crease_random_normal(3, 3, i);
         memcpy(points[i], (double[]){x, y, z}, sizeof points[i]);
     }
-    const crease_cloud_parts parts = {.count = (size_t)SIDE * SIDE, .points = points[0]};
-    assert_int_equal(crease_cloud_create(s.context, &parts, &s.cloud), CREASE_OK);
+    s.cloud = given_cloud_of(s.context, points[0], (size_t)SIDE * SIDE);
     free(points);
     return s;
 }

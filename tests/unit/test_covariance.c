@@ -107,11 +107,8 @@ static void given_a_sheet_then_its_errors_tell_how_far_off_it_is(void **state)
             p[1] = crease_random_uniform(k, 4, i);
             p[2] = 0.5 - 0.5 * fabs(p[0]) + SIGMA * crease_random_normal(k, 5, i);
         }
-        const crease_cloud_parts parts = {
-            .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-        crease_cloud *cloud = NULL;
         crease_sheet *sheet = NULL;
-        assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+        crease_cloud *cloud = given_cloud_of(context, points, count);
         assert_int_equal(crease_sheet_fit(context, cloud, &options, &sheet), CREASE_OK);
         const double *const errors = crease_sheet_standard_errors(sheet);
         assert_non_null(errors);

@@ -16,9 +16,7 @@ typedef struct world {
 static world world_of_points(given_points points, int threads)
 {
     world w = {given_context_with_threads(threads), points, NULL, NULL};
-    const crease_cloud_parts parts = {.count = points.count, .points = points.points};
-    crease_cloud *cloud = NULL;
-    assert_int_equal(crease_cloud_create(w.context, &parts, &cloud), CREASE_OK);
+    crease_cloud *cloud = given_cloud_of(w.context, points.points, points.count);
     if (crease_regions_find(w.context, cloud, NULL, &w.regions) != CREASE_OK ||
         crease_network_find(w.context, w.regions, NULL, &w.network) != CREASE_OK)
         fail_msg("%s", crease_context_message(w.context));

@@ -96,10 +96,7 @@ static crease_cloud *given_number_of_points(
         for (size_t c = 0; c < 3 && noise > 0.0; c++)
             points[3 * i + c] += noise * crease_random_normal(7, 1, 3 * i + c);
     }
-    const crease_cloud_parts parts = {
-        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-    crease_cloud *cloud = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    crease_cloud *cloud = given_cloud_of(context, points, count);
     free(points);
     return cloud;
 }
@@ -361,10 +358,7 @@ static crease_cloud *given_moved(
     crease_frame_leave(frame, crease_cloud_points(cloud), count, points);
     for (size_t i = 0; i < 3 * count; i++)
         points[i] *= factor;
-    const crease_cloud_parts parts = {
-        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-    crease_cloud *moved = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &moved), CREASE_OK);
+    crease_cloud *moved = given_cloud_of(context, points, count);
     free(points);
     return moved;
 }

@@ -174,9 +174,7 @@ static crease_cloud *given_cloud(crease_context *context, maker *make, size_t co
     double *points = malloc(count * 3 * sizeof *points);
     for (size_t i = 0; i < count; i++)
         make(i, points + 3 * i);
-    const crease_cloud_parts parts = {.count = count, .points = points};
-    crease_cloud *cloud = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    crease_cloud *cloud = given_cloud_of(context, points, count);
     free(points);
     return cloud;
 }

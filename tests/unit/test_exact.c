@@ -48,11 +48,8 @@ static void set_points(
 static crease_sheet *when_fitted(
     crease_context *context, const double *points, size_t count, const crease_sheet_options *o)
 {
-    const crease_cloud_parts parts = {
-        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-    crease_cloud *cloud = NULL;
     crease_sheet *sheet = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    crease_cloud *cloud = given_cloud_of(context, points, count);
     assert_int_equal(crease_sheet_fit(context, cloud, o, &sheet), CREASE_OK);
     crease_cloud_free(cloud);
     return sheet;

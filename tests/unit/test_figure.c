@@ -12,20 +12,11 @@
 
 /* ------------------------------------------------------------------------------------- given -- */
 
-static crease_cloud *given_cloud(crease_context *context, const double *points, size_t count)
-{
-    const crease_cloud_parts parts = {
-        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-    crease_cloud *cloud = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
-    return cloud;
-}
-
 /* A scene that shows points without a name, so that it has no legend. */
 static crease_scene *given_points(crease_context *context, const double *points, size_t count)
 {
     crease_scene *scene = NULL;
-    crease_cloud *cloud = given_cloud(context, points, count);
+    crease_cloud *cloud = given_cloud_of(context, points, count);
     assert_int_equal(crease_scene_create(context, NULL, &scene), CREASE_OK);
     assert_int_equal(crease_scene_add_cloud(context, scene, NULL, cloud), CREASE_OK);
     crease_cloud_free(cloud);
@@ -421,7 +412,7 @@ static void given_titles_from_outside_then_they_are_drawn_safely(void **state)
     const double points[] = {0, 0, 0};
     crease_context *context = given_context();
     for (size_t i = 0; i < sizeof titles / sizeof *titles; i++) {
-        crease_cloud *cloud = given_cloud(context, points, 1);
+        crease_cloud *cloud = given_cloud_of(context, points, 1);
         crease_scene *scene = NULL;
         assert_int_equal(crease_scene_create(context, titles[i], &scene), CREASE_OK);
         assert_int_equal(crease_scene_add_cloud(context, scene, titles[i], cloud), CREASE_OK);

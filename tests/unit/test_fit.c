@@ -20,15 +20,6 @@ static crease_cloud *given_sample(
     return cloud;
 }
 
-static crease_cloud *given_cloud(crease_context *context, const double *points, size_t count)
-{
-    const crease_cloud_parts parts = {
-        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-    crease_cloud *cloud = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
-    return cloud;
-}
-
 static crease_sheet *when_fitted(
     crease_context *context, const crease_cloud *cloud, const crease_sheet_options *options)
 {
@@ -118,7 +109,7 @@ static void given_a_noisy_roof_along_no_axis_then_errors_are_far_below_the_noise
             points[i][c] = p[c] + sigma * crease_random_normal(1, 2, 3 * i + c);
     }
     crease_frame_leave(&turn, points[0], COUNT, points[0]);
-    crease_cloud *cloud = given_cloud(context, points[0], COUNT);
+    crease_cloud *cloud = given_cloud_of(context, points[0], COUNT);
     crease_sheet *sheet = when_fitted(context, cloud, NULL);
     assert_int_equal(crease_sheet_line_count(sheet), 1);
     const crease_line line = crease_sheet_line(sheet, 0);
@@ -153,7 +144,7 @@ static void given_creased_bicubic_data_then_the_fit_is_exact(void **state)
         points[i][1] = i % SIDE / (SIDE - 1.0);
         points[i][2] = creased(points[i][0], points[i][1]);
     }
-    crease_cloud *cloud = given_cloud(context, points[0], SIDE * SIDE);
+    crease_cloud *cloud = given_cloud_of(context, points[0], SIDE * SIDE);
     crease_sheet_options options = crease_sheet_options_default();
     options.orientation = CREASE_ORIENTATION_NONE;
     crease_sheet *sheet = when_fitted(context, cloud, &options);
@@ -181,7 +172,7 @@ static void given_a_block_on_a_plate_then_lines_follow_its_sides(void **state)
         points[i][1] = s * x + c * y;
         points[i][2] = (block ? 0.1 : 0) + 0.001 * crease_random_normal(3, 4, i);
     }
-    crease_cloud *cloud = given_cloud(context, points[0], SIDE * SIDE);
+    crease_cloud *cloud = given_cloud_of(context, points[0], SIDE * SIDE);
     crease_sheet *sheet = when_fitted(context, cloud, NULL);
     const double sides[2][2] = {{0.3, 0.65}, {0.255, 0.74}};
     for (int d = 0; d < 2; d++)
@@ -212,7 +203,7 @@ static void given_a_smooth_surface_then_no_crease(void **state)
         points[i][2] = 0.2 * sin(4 * points[i][0]) * cos(3 * points[i][1]) +
             0.002 * crease_random_normal(3, 4, i);
     }
-    crease_cloud *cloud = given_cloud(context, points[0], SIDE * SIDE);
+    crease_cloud *cloud = given_cloud_of(context, points[0], SIDE * SIDE);
     crease_sheet *sheet = when_fitted(context, cloud, NULL);
     assert_int_equal(crease_sheet_line_count(sheet), 0);
     double square = 0;
@@ -328,10 +319,10 @@ static void given_senseless_options_or_points_then_an_error_says_what_to_give(vo
     double line[30];
     for (int i = 0; i < 30; i++)
         line[i] = i / 3 * (1 + i % 3);
-    cloud = given_cloud(context, line, 10);
+    cloud = given_cloud_of(context, line, 10);
     assert_int_equal(crease_sheet_fit(context, cloud, NULL, &sheet), CREASE_ERROR_DEGENERATE);
     crease_cloud_free(cloud);
-    cloud = given_cloud(context, line, 5);
+    cloud = given_cloud_of(context, line, 5);
     assert_int_equal(crease_sheet_fit(context, cloud, NULL, &sheet), CREASE_ERROR_TOO_FEW_POINTS);
     assert_null(sheet);
     crease_cloud_free(cloud);
@@ -373,7 +364,7 @@ static void given_a_roof_without_noise_then_it_is_exact_at_any_angle(void **stat
             points[i][1] = sin(turn) * across + cos(turn) * along;
             points[i][2] = -fabs(across) / tan(half);
         }
-        crease_cloud *cloud = given_cloud(context, points[0], COUNT);
+        crease_cloud *cloud = given_cloud_of(context, points[0], COUNT);
         crease_sheet *sheet = when_fitted(context, cloud, NULL);
         assert_int_equal(crease_sheet_line_count(sheet), 1);
         assert_near(crease_sheet_line(sheet, 0).angle, 2 * half * 57.29577951308232, 1e-6);

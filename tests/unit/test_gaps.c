@@ -71,11 +71,8 @@ static double wave(double x, double y)
 static crease_sheet *when_fitted(
     crease_context *context, const scattered *s, const crease_sheet_options *options)
 {
-    const crease_cloud_parts parts = {
-        .count = s->count, .points = s->points[0], .coordinate_type = CREASE_TYPE_FLOAT64};
-    crease_cloud *cloud = NULL;
     crease_sheet *sheet = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    crease_cloud *cloud = given_cloud_of(context, s->points[0], s->count);
     if (crease_sheet_fit(context, cloud, options, &sheet) != CREASE_OK)
         fail_msg("%s", crease_context_message(context));
     crease_cloud_free(cloud);

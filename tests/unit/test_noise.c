@@ -260,10 +260,8 @@ static void size_and_place_do_not_matter(void **state)
 
 static crease_status status_of(crease_context *context, const double *points, size_t count)
 {
-    const crease_cloud_parts parts = {.count = count, .points = points};
-    crease_cloud *cloud = NULL;
     crease_noise *noise = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    crease_cloud *cloud = given_cloud_of(context, points, count);
     const crease_status status = crease_noise_estimate(context, cloud, &noise);
     assert_true((status == CREASE_OK) == (noise != NULL));
     crease_noise_free(noise);

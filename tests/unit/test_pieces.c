@@ -238,9 +238,7 @@ static void given_far_coordinates_then_rounding_hides_no_neighbour(void **state)
     double *points = malloc(3 * count * sizeof *points);
     for (size_t i = 0; i < 3 * count; i++)
         points[i] = 1e13 + crease_cloud_points(near)[i];
-    const crease_cloud_parts parts = {
-        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-    assert_int_equal(crease_cloud_create(context, &parts, &far), CREASE_OK);
+    far = given_cloud_of(context, points, count);
     crease_detect_options options = crease_detect_options_default();
     options.resamples = 10;
     free(points);
@@ -263,9 +261,7 @@ static crease_cloud *given_outliers(size_t count)
         if (i / 3 % 40 == 0)
             points[i] = low[0] + (high[0] - low[0]) * 3.0 * ((double)random / 4294967296.0 - 0.5);
     }
-    const crease_cloud_parts parts = {
-        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    cloud = given_cloud_of(context, points, count);
     free(points);
     crease_cloud_free(panel);
     crease_context_free(context);

@@ -352,10 +352,8 @@ static void threads_do_not_change_a_bit(void **state)
 static crease_status status_of(crease_context *context, const double *points, size_t count,
     const crease_regions_options *options)
 {
-    const crease_cloud_parts parts = {.count = count, .points = points};
-    crease_cloud *cloud = NULL;
     crease_regions *regions = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    crease_cloud *cloud = given_cloud_of(context, points, count);
     const crease_status status = crease_regions_find(context, cloud, options, &regions);
     assert_true((status == CREASE_OK) == (regions != NULL));
     crease_regions_free(regions);

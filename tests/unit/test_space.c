@@ -87,9 +87,7 @@ static struct points given_points(const char *name, maker *make, size_t count)
 
 static crease_cloud *given_cloud(crease_context *context, const struct points *points)
 {
-    const crease_cloud_parts parts = {.count = points->count, .points = points->xyz};
-    crease_cloud *cloud = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    crease_cloud *cloud = given_cloud_of(context, points->xyz, points->count);
     return cloud;
 }
 

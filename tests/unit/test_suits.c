@@ -84,10 +84,7 @@ static bool surface_suits(surface *place)
     static double points[3 * COUNT];
     for (size_t i = 0; i < COUNT; i++)
         place(i, points + 3 * i);
-    const crease_cloud_parts parts = {
-        .count = COUNT, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-    crease_cloud *cloud = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    crease_cloud *cloud = given_cloud_of(context, points, COUNT);
     const bool answer = suits(context, cloud);
     crease_cloud_free(cloud);
     crease_context_free(context);

@@ -29,19 +29,10 @@ static double *given_roof(size_t count, double noise)
     return points;
 }
 
-static crease_cloud *given_cloud(crease_context *context, const double *points, size_t count)
-{
-    const crease_cloud_parts parts = {
-        .count = count, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-    crease_cloud *cloud = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
-    return cloud;
-}
-
 static crease_sheet_sum *given_sum(
     crease_context *context, const double *points, size_t rows, size_t columns)
 {
-    crease_cloud *const sample = given_cloud(context, points, SAMPLED);
+    crease_cloud *const sample = given_cloud_of(context, points, SAMPLED);
     crease_sheet_options options = crease_sheet_options_default();
     options.net[0] = rows;
     options.net[1] = columns;
@@ -226,7 +217,7 @@ static void given_a_file_then_all_its_points_are_fitted_and_measured(void **stat
     snprintf(path, sizeof path, "%s/in.ply", folder);
     crease_context *context = given_context();
     double *points = given_roof(POINTS, 1e-3);
-    crease_cloud *cloud = given_cloud(context, points, POINTS), *sample;
+    crease_cloud *cloud = given_cloud_of(context, points, POINTS), *sample;
     assert_int_equal(crease_cloud_write(context, cloud, path), CREASE_OK);
     crease_fit_stream_options options = crease_fit_stream_options_default();
     crease_fit_stream_summary summary;

@@ -210,10 +210,7 @@ static void given_points_alone_then_xyz_is_plain(void **state)
 {
     crease_context *context = given_context();
     const double points[] = {1, 2, 0.1};
-    const crease_cloud_parts parts = {
-        .count = 1, .points = points, .coordinate_type = CREASE_TYPE_FLOAT64};
-    crease_cloud *cloud = NULL;
-    assert_int_equal(crease_cloud_create(context, &parts, &cloud), CREASE_OK);
+    crease_cloud *cloud = given_cloud_of(context, points, 1);
     assert_int_equal(crease_cloud_write(context, cloud, file_name("XYZ")), CREASE_OK);
     then_file_begins(file_name("XYZ"), "1 2 0.1\n");
     crease_cloud_free(cloud);
