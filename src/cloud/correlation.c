@@ -1,26 +1,21 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* Noise that neighbouring points share, as scanners have it along their lines
- * and depth cameras on their terraces. A quadric through a small window follows
- * it, and what it leaves says too little of it. So quadrics are fitted to
- * growing windows around some of the points:
+/* Noise that neighbouring points share, as scanners have it along their lines and depth cameras on
+ * their terraces. A quadric through a small window follows it, and what it leaves says too little
+ * of it. So quadrics are fitted to growing windows around some of the points:
  *
  * - Independent noise leaves the same variance at every size.
- * - Shared noise leaves more and more, but ever less is added, once the windows
- * are larger than the stretches that err alike.
- * - A surface that is no quadric leaves more and more too, but ever more is
- * added: the cubic terms alone eight times as much whenever the number of
- * points doubles.
+ * - Shared noise leaves more and more, but ever less is added, once the windows are larger than the
+ *   stretches that err alike.
+ * - A surface that is no quadric leaves more and more too, but ever more is added: the cubic terms
+ *   alone eight times as much whenever the number of points doubles.
+ * - The other side of a thin wall comes at once, and leaves what no noise leaves. Where heights
+ * over the smallest window's plane have a gap, the window sees it and says nothing.
  *
- * - The other side of a thin wall comes at once, and leaves what no noise
- * leaves. Where heights over the smallest window's plane have a gap, the window
- * sees it and says nothing.
- *
- * Where the variance grows from the first size to the second, and then at a
- * falling rate, the last such size tells the noise. How many points err alike
- * follows from what a fit takes out of the mean square of the residuals: each
- * of its p parameters a share of (points alike) / (points). */
+ * Where the variance grows from the first size to the second, and then at a falling rate, the last
+ * such size tells the noise. How many points err alike follows from what a fit takes out of the
+ * mean square of the residuals: each of its p parameters a share of (points alike) / (points). */
 #include "cloud/correlation.h"
 
 #include "base/memory.h"

@@ -114,3 +114,9 @@ void crease_place_move(crease_snapping *all, const crease_place *place, const do
         all->moved[i] = true;
     }
 }
+
+void crease_place_project(const crease_place *place, const double onto[3], double by, double out[])
+{
+    for (int k = 0; k < place->count; k++)
+        out[k] = by * crease_vector_dot(place->along[k], onto);
+}

@@ -25,6 +25,8 @@ typedef struct crease_place {
 size_t crease_places_find(const crease_snapping *all, crease_place *out);
 /* Shifts the bodies of a place to new coordinates; what else is free of them follows. */
 void crease_place_move(crease_snapping *all, const crease_place *place, const double to[]);
+/* The row that takes its coordinates to where it is along a direction, times a factor. */
+void crease_place_project(const crease_place *place, const double onto[3], double by, double out[]);
 bool crease_place_has(const crease_snapping *all, const crease_place *place, size_t body);
 
 #endif

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/* SPDX-FileCopyrightText: The crease authors */
+
+/* What tells where a mirror plane would be: two places that may be each other's image, or one that
+ * may be its own. */
+#ifndef CREASE_SEGMENT_HALF_H
+#define CREASE_SEGMENT_HALF_H
+
+#include "segment/place.h"
+
+enum { CREASE_MOST_PLACES_ACROSS = 60 };
+
+/* Two places, or twice the same: the mirror plane between them is a linear function of theirs. */
+typedef struct crease_half {
+    size_t place[2];
+    double row[2][CREASE_PLACE_COORDINATES];
+    double across[3]; /* not zero: axes that must not be apart this way either */
+    double at, variance;
+} crease_half;
+
+/* All zero is none; to be freed: items. */
+typedef struct crease_halves {
+    crease_half *items;
+    size_t count, room;
+} crease_halves;
+
+crease_status crease_halves_add(
+    crease_context *context, crease_halves *halves, const crease_half *half);
+/* The halves of mirrors at right angles to `normal`, by where they are, in place of those that were
+ * there, and how many places a mirror would move or turn; no halves where these are more than
+ * CREASE_MOST_PLACES_ACROSS. O(places squared). */
+crease_status crease_halves_find(const crease_snapping *all, const crease_place *places,
+    size_t count, const bool *excluded, const double normal[3], crease_halves *out, size_t *across);
+
+#endif
