@@ -196,8 +196,10 @@ static void describe_kinds(report *r, const result *all)
         counts.of[crease_regions_at(regions_of(all), crease_part_face_at(all->part, i).region)
                       .type]++;
     region_counts_text(&counts, text, sizeof text);
-    report_line(r, "%zu faces: %s; %zu edges, %zu of them sharp", crease_part_face_count(all->part),
-        text, crease_part_edge_count(all->part), all->sharp_count);
+    const size_t faces = crease_part_face_count(all->part);
+    const size_t edges = crease_part_edge_count(all->part);
+    report_line(r, "%zu face%s: %s; %zu edge%s, %zu of them sharp", faces, faces == 1 ? "" : "s",
+        text, edges, edges == 1 ? "" : "s", all->sharp_count);
 }
 
 /* What was snapped, by the numbers of the regions. */
@@ -233,11 +235,9 @@ static void tell_snaps(const report *r, const result *all)
             counts[CREASE_SNAP_SYMMETRIC]);
 }
 
-static void describe(report *r, const settings *s, result *all)
+static void describe(report *r, result *all)
 {
     static const char *const states[] = {"solid", "shell", "faces"};
-    static const char *const words[] = {
-        "a closed, valid solid", "an open shell", "faces that do not all join"};
     const crease_part_state state = crease_part_state_of(all->part);
     const char *why = crease_part_message(all->part);
     const double volume = crease_part_volume(all->part);
@@ -258,11 +258,9 @@ static void describe(report *r, const settings *s, result *all)
         report_line(r, "%zu closed, valid solids, volume %.6g%s%s", solids, volume,
             *why ? "; but " : "", why);
     else if (state == CREASE_PART_SOLID)
-        report_line(r, "%s, volume %.6g%s%s", words[state], volume, *why ? "; but " : "", why);
-    else if (s->method == METHOD_SHELL)
-        report_line(r, "%s", why);
+        report_line(r, "a closed, valid solid, volume %.6g%s%s", volume, *why ? "; but " : "", why);
     else
-        report_line(r, "%s: %s", words[state], why);
+        report_line(r, "%s", why);
     if (regions_of(all) != all->regions)
         report_line(
             r, "regions that join without an angle were united: as found they do not close");
@@ -368,7 +366,7 @@ crease_status fit_part(crease_context *context, const settings *s, report *r,
     *instead = status == CREASE_OK && rival && is_worse(&all, rival);
     if (status == CREASE_OK && !*instead) {
         cJSON_AddStringToObject(r->root, "method", fit_method_names[s->method]);
-        describe(r, s, &all);
+        describe(r, &all);
         status = write_outputs(context, s, r, &all);
     }
     result_free(&all);

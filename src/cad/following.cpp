@@ -112,7 +112,8 @@ static std::string why_open(const crease_topology &topology)
     if (open == 0)
         return "";
     return std::to_string(open) + " of " + std::to_string(topology.region_count) +
-        " faces have no closed border";
+        (topology.region_count == 1 ? " face" : " faces") + (open == 1 ? " has" : " have") +
+        " no closed border";
 }
 
 Attempt follow_topology(const Job &job, double)

@@ -235,6 +235,12 @@ assert abs(sum(f["area"] for f in r["faces"]) - 3) < 0.06'
 expect 0 "faces: 3" fit corner.xyz --method shell --faces bspline -o corner.brep
 expect 0 "3 B-spline, 0 plane" info corner.brep
 
+# what is asked for as a part and ends at a border says why it is none
+awk 'BEGIN { srand(7); for (i = 0; i < 4000; i++) { a = 4.7 * rand(); print cos(a), sin(a), rand() } }' >arc.xyz
+expect 0 "points
+an open shell of 1 face with 4 free edges, no solid: 1 of 1 face has no closed border
+1 face: 1 cylinder; 4 edges, 0 of them sharp" fit arc.xyz --method part -o arc.step
+
 # --- fit, the paper's algorithm: rows 3 and 4 are repeated, a flat-topped ridge
 expect 0 "control points" fit sample.ply --method averaging -o a.step --report a.json
 check "the paper repeats two rows of its net" python3 -c '
