@@ -434,7 +434,7 @@ typedef struct crease_region {
 
 typedef struct crease_regions_options {
     double sigma;        /**< noise along the normal, when it is known; default 0: estimated */
-    size_t least_points; /**< no region has fewer points than this, 8 or more; default 8 */
+    size_t least_points; /**< 8 or more; default 8; of 4, 16, 64 times 10 000 points 1, 2, 3 more */
     bool united;         /**< regions that join without an angle become one free form where that is
                               as close to the points; default false */
 } crease_regions_options;

@@ -75,6 +75,8 @@ static crease_status make_edges(crease_graph *graph, crease_chains *chains, bool
     }
     if (status == CREASE_OK)
         status = close_gaps(graph, &links, bordered);
+    if (status == CREASE_OK)
+        status = crease_ends_dissolve(graph);
     crease_links_clear(&links);
     return status;
 }

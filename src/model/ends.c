@@ -165,6 +165,80 @@ void crease_ends_prune(crease_graph *graph)
     crease_graph_drop_empty(graph);
 }
 
+/* ---------------------------------------------------------------------------- dissolving -- */
+
+static bool is_one_curve(const crease_edge *a, const crease_edge *b)
+{
+    return a->regions[0] == b->regions[0] && a->regions[1] == b->regions[1] &&
+        a->smooth == b->smooth && a->loose == b->loose && !crease_edge_is_rim(a);
+}
+
+/* The two edges whose ends are all that there is at a vertex, which may be the same one. */
+static bool pair_at(const crease_topology *t, int32_t vertex, crease_edge *out[2])
+{
+    int count = 0;
+    for (size_t e = 0; e < t->edge_count; e++)
+        for (int w = 0; w < 2; w++)
+            if (t->edges[e].vertices[w] == vertex && t->edges[e].count > 0) {
+                if (count < 2)
+                    out[count] = &t->edges[e];
+                count++;
+            }
+    return count == 2;
+}
+
+/* Where an edge ends, moved onto its surfaces. */
+static void settle_end(const crease_graph *graph, crease_edge *edge)
+{
+    double along[3], *const tip = edge->points + 3 * (edge->count - 1);
+    for (int c = 0; c < 3; c++)
+        along[c] = tip[c - 3] - tip[c];
+    crease_vector_normalise(along);
+    crease_graph_onto(graph, edge, along, tip);
+}
+
+/* Lets an edge go on with the points of another, which then has none. */
+static crease_status go_on(crease_graph *graph, crease_edge *edge, crease_edge *with, int32_t at)
+{
+    crease_status status = CREASE_OK;
+    if (edge->vertices[1] != at)
+        crease_edge_reverse(edge);
+    if (with->vertices[0] != at)
+        crease_edge_reverse(with);
+    settle_end(graph, edge);
+    for (size_t i = 1; i < with->count && status == CREASE_OK; i++)
+        status = crease_edge_append(graph->context, edge, with->points + 3 * i);
+    edge->vertices[1] = with->vertices[1];
+    with->vertices[0] = with->vertices[1] = CREASE_NO_VERTEX;
+    crease_edge_clear(with);
+    return status;
+}
+
+static void close_up(const crease_graph *graph, crease_edge *edge)
+{
+    settle_end(graph, edge);
+    memcpy(edge->points, edge->points + 3 * (edge->count - 1), 3 * sizeof *edge->points);
+    edge->vertices[0] = edge->vertices[1] = CREASE_NO_VERTEX;
+    edge->closed = true;
+}
+
+crease_status crease_ends_dissolve(crease_graph *graph)
+{
+    const crease_topology *const t = graph->topology;
+    crease_status status = CREASE_OK;
+    for (size_t v = 0; v < t->vertex_count && status == CREASE_OK; v++) {
+        crease_edge *pair[2];
+        if (!pair_at(t, (int32_t)v, pair) || !is_one_curve(pair[0], pair[1]))
+            continue;
+        if (pair[0] == pair[1])
+            close_up(graph, pair[0]);
+        else
+            status = go_on(graph, pair[0], pair[1], (int32_t)v);
+    }
+    crease_graph_drop_empty(graph);
+    return status;
+}
+
 /* ----------------------------------------------------------------------------- finishing -- */
 
 static void spread_at(crease_graph *graph, const crease_edge *a, const crease_edge *b, int32_t v)

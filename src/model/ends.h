@@ -14,6 +14,9 @@ crease_status crease_ends_join(crease_graph *graph);
 crease_status crease_ends_meet(crease_graph *graph);
 /* Removes short edges that lead to nowhere beside a longer one of the same two regions. */
 void crease_ends_prune(crease_graph *graph);
+/* Joins the edges of the same two regions at vertices where nothing else ends: there a crease was
+ * lost from sight for a while. All around, they become closed edges without a vertex. */
+crease_status crease_ends_dissolve(crease_graph *graph);
 /* Moves the ends of edges onto their two surfaces, and finds the spread of the vertices. */
 void crease_ends_finish(crease_graph *graph);
 

@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAST_POINTS = 8 };
+enum { LEAST_POINTS = 8, FEW = 10000 };
 
 static const double normals_agree = 20.0; /* degrees between a point's normal and its region's, on
                                              top of twice the error of the normals */
@@ -92,6 +92,16 @@ static crease_status run_beside_edges(crease_segmentation *seg, const crease_reg
     return status == CREASE_OK ? crease_segmentation_list(seg) : status;
 }
 
+/* Among four times as many points there are four times as many places where some fit a surface by
+ * chance, and one more of them is as unlikely: no more than a quarter of all that are near lie in
+ * its noise. */
+static size_t least_among(size_t least, size_t count)
+{
+    for (size_t points = FEW; points <= count / 4; points *= 4)
+        least++;
+    return least;
+}
+
 static crease_status segment(
     crease_context *context, crease_regions *regions, const crease_regions_options *options)
 {
@@ -108,7 +118,7 @@ static crease_status segment(
         .alike = known ? 1.0 : regions->noise->alike,
         .known_sigma = known || regions->noise->alike > 1.0,
         .spacing = regions->noise->spacing,
-        .least_points = options->least_points,
+        .least_points = least_among(options->least_points, regions->count),
         .labels = regions->labels};
     /* Error of a normal: the noise over half the window's radius and the root of its points. */
     const double pi = acos(-1.0), window = CREASE_NOISE_NEIGHBOURS - 1;

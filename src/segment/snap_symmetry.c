@@ -8,41 +8,41 @@
  * of the places. */
 #include "base/memory.h"
 #include "base/vector.h"
-#include "segment/half.h"
 #include "segment/joint.h"
+#include "segment/middle.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAST_HALVES = 2, LEAST_HALVES_OF_SOME = 3 };
+enum { LEAST_MIDDLES = 2, LEAST_MIDDLES_OF_SOME = 3 };
 
 typedef struct mirror {
     double normal[3];
-    size_t first, size; /* among the halves that were taken */
+    size_t first, size; /* among the middles that were taken */
 } mirror;
 
 typedef struct symmetry {
     crease_snapping *all;
     crease_place *places;
     size_t place_count, mirror_count;
-    bool *excluded;       /* of the places */
-    size_t *first;        /* of their values in the joint */
-    crease_halves halves; /* of one direction */
-    crease_halves taken;  /* of all mirrors */
-    mirror *mirrors;      /* one for a direction at most */
+    bool *excluded;         /* of the places */
+    size_t *first;          /* of their values in the joint */
+    crease_middles middles; /* of one direction */
+    crease_middles taken;   /* of all mirrors */
+    mirror *mirrors;        /* one for a direction at most */
 } symmetry;
 
 /* ------------------------------------------------------------------------------------ mirrors --
  */
 
-static double apart(const crease_half *a, const crease_half *b)
+static double apart(const crease_middle *a, const crease_middle *b)
 {
     const double d = a->at - b->at;
     return d * d / (a->variance + b->variance);
 }
 
-static bool takes_from(const crease_half *list, size_t count, const crease_half *h)
+static bool takes_from(const crease_middle *list, size_t count, const crease_middle *h)
 {
     for (size_t i = 0; i < count; i++)
         for (int k = 0; k < 2; k++)
@@ -51,36 +51,36 @@ static bool takes_from(const crease_half *list, size_t count, const crease_half 
     return false;
 }
 
-/* The halves that agree with one of them, the nearest first; each place is taken once. `out` has
+/* The middles that agree with one of them, the nearest first; each place is taken once. `out` has
  * room for as many as there are places. */
-static size_t agreeing(const symmetry *s, size_t with, double reach, crease_half *out)
+static size_t agreeing(const symmetry *s, size_t with, double reach, crease_middle *out)
 {
-    const crease_half *const lead = &s->halves.items[with];
+    const crease_middle *const lead = &s->middles.items[with];
     size_t low = with, high = with, count = 1;
     out[0] = *lead;
-    while (low > 0 && lead->at - s->halves.items[low - 1].at < reach)
+    while (low > 0 && lead->at - s->middles.items[low - 1].at < reach)
         low--;
-    while (high + 1 < s->halves.count && s->halves.items[high + 1].at - lead->at < reach)
+    while (high + 1 < s->middles.count && s->middles.items[high + 1].at - lead->at < reach)
         high++;
     for (double least = -1.0;;) { /* by how far they are apart from the first */
-        size_t best = s->halves.count;
+        size_t best = s->middles.count;
         double nearest = CREASE_WITHIN_ERRORS[1];
         for (size_t i = low; i <= high; i++) {
-            const double squared = apart(&s->halves.items[i], lead);
+            const double squared = apart(&s->middles.items[i], lead);
             if (i != with && squared < nearest && squared >= least &&
-                !takes_from(out, count, &s->halves.items[i])) {
+                !takes_from(out, count, &s->middles.items[i])) {
                 nearest = squared;
                 best = i;
             }
         }
-        if (best == s->halves.count)
+        if (best == s->middles.count)
             return count;
         least = nearest;
-        out[count++] = s->halves.items[best];
+        out[count++] = s->middles.items[best];
     }
 }
 
-static size_t places_of(const crease_half *list, size_t count)
+static size_t places_of(const crease_middle *list, size_t count)
 {
     size_t places = 0;
     for (size_t i = 0; i < count; i++)
@@ -92,21 +92,22 @@ static size_t places_of(const crease_half *list, size_t count)
 static crease_status seek_mirror(symmetry *s, const double normal[3])
 {
     size_t across, best_count = 0;
-    crease_status status = crease_halves_find(
-        s->all, s->places, s->place_count, s->excluded, normal, &s->halves, &across);
-    if (status != CREASE_OK || s->halves.count < LEAST_HALVES || across > CREASE_MOST_PLACES_ACROSS)
+    crease_status status = crease_middles_find(
+        s->all, s->places, s->place_count, s->excluded, normal, &s->middles, &across);
+    if (status != CREASE_OK || s->middles.count < LEAST_MIDDLES ||
+        across > CREASE_MOST_PLACES_ACROSS)
         return status;
-    crease_half *const found = crease_allocate(s->all->context, across + 1, sizeof *found);
-    crease_half *const best = crease_allocate(s->all->context, across + 1, sizeof *best);
+    crease_middle *const found = crease_allocate(s->all->context, across + 1, sizeof *found);
+    crease_middle *const best = crease_allocate(s->all->context, across + 1, sizeof *best);
     if (!found || !best) {
         free(found);
         free(best);
         return CREASE_ERROR_NO_MEMORY;
     }
     double most = 0.0;
-    for (size_t i = 0; i < s->halves.count; i++)
-        most = fmax(most, s->halves.items[i].variance);
-    for (size_t i = 0; i < s->halves.count; i++) {
+    for (size_t i = 0; i < s->middles.count; i++)
+        most = fmax(most, s->middles.items[i].variance);
+    for (size_t i = 0; i < s->middles.count; i++) {
         const size_t count = agreeing(s, i, sqrt(2.0 * CREASE_WITHIN_ERRORS[1] * most), found);
         if (places_of(found, count) > places_of(best, best_count)) {
             memcpy(best, found, count * sizeof *found);
@@ -114,14 +115,14 @@ static crease_status seek_mirror(symmetry *s, const double normal[3])
         }
     }
     const size_t explained = places_of(best, best_count);
-    if (best_count >= (explained == across ? LEAST_HALVES : LEAST_HALVES_OF_SOME) &&
+    if (best_count >= (explained == across ? LEAST_MIDDLES : LEAST_MIDDLES_OF_SOME) &&
         2 * explained >= across) {
         mirror *const m = &s->mirrors[s->mirror_count++];
         memcpy(m->normal, normal, sizeof m->normal);
         m->first = s->taken.count;
         m->size = best_count;
         for (size_t i = 0; i < best_count && status == CREASE_OK; i++)
-            status = crease_halves_add(s->all->context, &s->taken, &best[i]);
+            status = crease_middles_add(s->all->context, &s->taken, &best[i]);
     }
     free(found);
     free(best);
@@ -131,14 +132,14 @@ static crease_status seek_mirror(symmetry *s, const double normal[3])
 /* ------------------------------------------------------------------------------------ meeting --
  */
 
-static void add_row(const symmetry *s, const crease_half *h, double by, double *row)
+static void add_row(const symmetry *s, const crease_middle *h, double by, double *row)
 {
     for (int k = 0; k < 2; k++)
         for (int c = 0; c < s->places[h->place[k]].count; c++)
             row[s->first[h->place[k]] + (size_t)c] += by * h->row[k][c];
 }
 
-static void add_level_row(const symmetry *s, const crease_half *h, double *row)
+static void add_level_row(const symmetry *s, const crease_middle *h, double *row)
 {
     for (int k = 0; k < 2; k++) {
         const crease_place *const place = &s->places[h->place[k]];
@@ -149,27 +150,28 @@ static void add_level_row(const symmetry *s, const crease_half *h, double *row)
     }
 }
 
-/* Makes all halves of a mirror tell one plane; those that do not come along are dropped. */
+/* Makes all middles of a mirror tell one plane; those that do not come along are dropped. */
 static void meet_mirror(symmetry *s, mirror *m, crease_joint *joint, double *row)
 {
-    crease_half *const halves = s->taken.items + m->first;
+    crease_middle *const middles = s->taken.items + m->first;
     size_t kept = 0;
     for (size_t i = 0; i < m->size; i++) {
         bool meets = true;
-        if (halves[i].place[0] != halves[i].place[1] && !s->places[halves[i].place[0]].is_plane) {
+        if (middles[i].place[0] != middles[i].place[1] &&
+            !s->places[middles[i].place[0]].is_plane) {
             memset(row, 0, joint->count * sizeof *row);
-            add_level_row(s, &halves[i], row);
+            add_level_row(s, &middles[i], row);
             meets = crease_joint_condition(joint, row);
         }
         if (meets && kept > 0) {
             memset(row, 0, joint->count * sizeof *row);
-            add_row(s, &halves[0], 1.0, row);
-            add_row(s, &halves[i], -1.0, row);
+            add_row(s, &middles[0], 1.0, row);
+            add_row(s, &middles[i], -1.0, row);
             meets = crease_joint_condition(joint, row);
         }
         if (meets) {
-            const crease_half h = halves[i];
-            halves[kept++] = h;
+            const crease_middle h = middles[i];
+            middles[kept++] = h;
         }
     }
     m->size = kept;
@@ -286,7 +288,7 @@ static crease_status keep_mirrors(const symmetry *s)
         return CREASE_ERROR_NO_MEMORY;
     for (size_t i = 0; i < s->mirror_count; i++) {
         const mirror *const m = &s->mirrors[i];
-        if (m->size < LEAST_HALVES)
+        if (m->size < LEAST_MIDDLES)
             continue;
         bool *const row = all->mirrored + all->count * all->mirror_count++;
         for (size_t h = 0; h < m->size; h++)
@@ -316,7 +318,7 @@ crease_status crease_snap_symmetry(crease_snapping *all)
     free(s.places);
     free(s.excluded);
     free(s.first);
-    free(s.halves.items);
+    free(s.middles.items);
     free(s.taken.items);
     free(s.mirrors);
     return status;

@@ -232,14 +232,22 @@ static bool bore_wall(const double *p, int32_t label)
 }
 
 /* A block with a bore through its top and bottom. */
-static world given_bored_block(void)
+static given_points given_bore(given_body *block)
 {
-    given_body block = given_box(0.5, 0.5, 0.3), bore = given_rod(0.2, 0.3);
-    given_points points = keep(given_sample(&block, S / 2, 0, 5), beside_bore);
+    given_body bore = given_rod(0.2, 0.3);
+    *block = given_box(0.5, 0.5, 0.3);
+    given_points points = keep(given_sample(block, S / 2, 0, 5), beside_bore);
     bore.count = 3;
     given_points wall = keep(given_sample(&bore, S / 2, 0, 6), bore_wall);
     bore.count = 1;
-    merge(&block, &points, &bore, wall);
+    merge(block, &points, &bore, wall);
+    return points;
+}
+
+static world given_bored_block(void)
+{
+    given_body block;
+    const given_points points = given_bore(&block);
     return world_of_points(&block, points, S / 2, 0);
 }
 
@@ -256,6 +264,23 @@ static void given_bored_block_when_found_then_top_and_bottom_have_a_hole(void **
         assert_near(face->loops[1].area, -acos(-1) * 0.04, 0.002);
     }
     assert_int_equal(face_of(w.topology, 6)->kind, CREASE_FACE_BAND);
+    end_world(&w);
+}
+
+static bool out_of_shadow(const double *p, int32_t label)
+{
+    const double angle = atan2(p[1], p[0]);
+    return label != 6 || p[2] < 0 || (fabs(angle - 1) > 0.6 && fabs(angle + 1) > 0.6);
+}
+
+/* The wall of the bore is in shadow beside two stretches of its upper rim. */
+static void given_rim_in_pieces_when_found_then_one_edge_goes_round(void **state)
+{
+    given_body block;
+    const given_points points = keep(given_bore(&block), out_of_shadow);
+    world w = world_of_points(&block, points, S / 2, 0);
+    check_counts(w.topology, 10, 14, 7);
+    check_points(&w, 1e-9);
     end_world(&w);
 }
 
@@ -690,6 +715,7 @@ int main(void)
         cmocka_unit_test(given_spheres_cut_when_found_then_patch_or_cap),
         cmocka_unit_test(given_whole_torus_when_found_then_one_face_without_edges),
         cmocka_unit_test(given_bored_block_when_found_then_top_and_bottom_have_a_hole),
+        cmocka_unit_test(given_rim_in_pieces_when_found_then_one_edge_goes_round),
         cmocka_unit_test(given_dome_when_found_then_a_smooth_ring_joins_rod_and_sphere),
         cmocka_unit_test(given_filleted_box_when_found_then_smooth_edges_beside_the_fillet),
         cmocka_unit_test(given_face_in_two_pieces_when_found_then_the_points_say_where_it_parts),

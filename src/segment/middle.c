@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-#include "segment/half.h"
+#include "segment/middle.h"
 
 #include "base/memory.h"
 #include "base/vector.h"
@@ -12,7 +12,7 @@
 static const double EXACT = 1e-9;   /* sine between directions that were made perpendicular */
 static const double OBLIQUE = 0.05; /* cosine between a mirror's normal and what it turns */
 
-/* What the halves of one direction are found of. */
+/* What the middles of one direction are found of. */
 typedef struct pairs {
     const crease_snapping *all;
     const crease_place *places;
@@ -57,7 +57,7 @@ static bool share_radius(const crease_snapping *all, const crease_place *a, cons
 
 /* Planes whose normals are each other's image. */
 static bool between_planes(
-    const crease_place *a, const crease_place *b, const double normal[3], crease_half *out)
+    const crease_place *a, const crease_place *b, const double normal[3], crease_middle *out)
 {
     double image[3], apart[3];
     const double along = crease_vector_dot(normal, a->along[0]);
@@ -73,7 +73,7 @@ static bool between_planes(
 
 /* Axes across the normal, or spheres. */
 static bool between_round(
-    const pairs *of, const crease_place *a, const crease_place *b, crease_half *out)
+    const pairs *of, const crease_place *a, const crease_place *b, crease_middle *out)
 {
     const bool same = a == b;
     if (a->direction != b->direction)
@@ -93,39 +93,40 @@ static bool between_round(
     return true;
 }
 
-crease_status crease_halves_add(
-    crease_context *context, crease_halves *halves, const crease_half *half)
+crease_status crease_middles_add(
+    crease_context *context, crease_middles *middles, const crease_middle *middle)
 {
-    if (halves->count == halves->room) {
-        const size_t more = 2 * halves->room + 64;
-        crease_half *const grown = halves->items
-            ? crease_reallocate(context, halves->items, more, sizeof *halves->items)
-            : crease_allocate(context, more, sizeof *halves->items);
+    if (middles->count == middles->room) {
+        const size_t more = 2 * middles->room + 64;
+        crease_middle *const grown = middles->items
+            ? crease_reallocate(context, middles->items, more, sizeof *middles->items)
+            : crease_allocate(context, more, sizeof *middles->items);
         if (!grown)
             return CREASE_ERROR_NO_MEMORY;
-        halves->items = grown;
-        halves->room = more;
+        middles->items = grown;
+        middles->room = more;
     }
-    halves->items[halves->count++] = *half;
+    middles->items[middles->count++] = *middle;
     return CREASE_OK;
 }
 
-static crease_status try_half(const pairs *of, size_t a, size_t b, crease_halves *out)
+static crease_status try_middle(const pairs *of, size_t a, size_t b, crease_middles *out)
 {
     const crease_place *const x = &of->places[a], *const y = &of->places[b];
-    crease_half half = {.place = {a, b}};
+    crease_middle middle = {.place = {a, b}};
     if (x->is_plane != y->is_plane || (x->is_plane && a == b))
         return CREASE_OK;
-    if (!(x->is_plane ? between_planes(x, y, of->normal, &half) : between_round(of, x, y, &half)))
+    if (!(x->is_plane ? between_planes(x, y, of->normal, &middle)
+                      : between_round(of, x, y, &middle)))
         return CREASE_OK;
-    evaluate(x, half.row[0], &half.at, &half.variance);
-    evaluate(y, half.row[1], &half.at, &half.variance);
-    return crease_halves_add(of->all->context, out, &half);
+    evaluate(x, middle.row[0], &middle.at, &middle.variance);
+    evaluate(y, middle.row[1], &middle.at, &middle.variance);
+    return crease_middles_add(of->all->context, out, &middle);
 }
 
-static int compare_halves(const void *a, const void *b)
+static int compare_middles(const void *a, const void *b)
 {
-    const crease_half *x = a, *y = b;
+    const crease_middle *x = a, *y = b;
     if (x->at != y->at)
         return x->at < y->at ? -1 : 1;
     if (x->place[0] != y->place[0])
@@ -145,8 +146,8 @@ static bool takes_part(const pairs *of, size_t p)
     return place->is_plane ? along > EXACT : along < 1.0 - EXACT;
 }
 
-crease_status crease_halves_find(const crease_snapping *all, const crease_place *places,
-    size_t count, const bool *excluded, const double normal[3], crease_halves *out, size_t *across)
+crease_status crease_middles_find(const crease_snapping *all, const crease_place *places,
+    size_t count, const bool *excluded, const double normal[3], crease_middles *out, size_t *across)
 {
     const pairs of = {all, places, excluded, normal};
     out->count = *across = 0;
@@ -158,11 +159,11 @@ crease_status crease_halves_find(const crease_snapping *all, const crease_place 
         for (size_t b = a; b < count; b++) {
             if (!takes_part(&of, a) || !takes_part(&of, b))
                 continue;
-            const crease_status status = try_half(&of, a, b, out);
+            const crease_status status = try_middle(&of, a, b, out);
             if (status != CREASE_OK)
                 return status;
         }
     if (out->count > 0)
-        qsort(out->items, out->count, sizeof *out->items, compare_halves);
+        qsort(out->items, out->count, sizeof *out->items, compare_middles);
     return CREASE_OK;
 }
