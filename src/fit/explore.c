@@ -12,9 +12,6 @@ enum { ROUNDS = 3 };
  */
 enum { FIRST_LINES = 2 };
 
-/* A more complicated layout must lower the score by this much: odds of 20 to 1. */
-static const double MARGIN = 6.0;
-
 bool crease_explore_keep_net(crease_layout *layout, const crease_bounds *bounds)
 {
     for (int d = 0; d < 2; d++) {
@@ -35,8 +32,7 @@ static size_t unknowns(const crease_layout *layout)
     return crease_layout_count(layout, 0) * crease_layout_count(layout, 1);
 }
 
-/* Fits another layout and takes it when its score is lower by the margin at least. */
-static crease_status try_layout(crease_context *context, crease_draft *draft,
+crease_status crease_explore_try(crease_context *context, crease_draft *draft,
     const crease_layout *layout, double margin, bool *taken)
 {
     *taken = false;
@@ -66,7 +62,7 @@ static crease_status try_candidate(crease_context *context, crease_draft *draft,
     if (!fits || !crease_explore_keep_net(&layout, bounds) ||
         unknowns(&layout) > CREASE_EXPLORED_UNKNOWNS)
         return CREASE_OK;
-    return try_layout(context, draft, &layout, MARGIN, taken);
+    return crease_explore_try(context, draft, &layout, CREASE_EXPLORE_MARGIN, taken);
 }
 
 /* More simple knots along the directions in the mask; false when that is not allowed. */
@@ -84,8 +80,7 @@ static bool finer(const crease_draft *draft, const crease_bounds *bounds, int ma
         ((double)unknowns(out) <= draft->samples->used || unknowns(out) <= 256);
 }
 
-/* Twice as many spans along x, along y, along both, then four times: the first that pays. */
-static crease_status grow(
+crease_status crease_explore_grow(
     crease_context *context, crease_draft *draft, const crease_bounds *bounds, bool *grown)
 {
     const struct {
@@ -97,7 +92,7 @@ static crease_status grow(
     for (size_t i = 0; i < sizeof tries / sizeof tries[0] && !*grown && status == CREASE_OK; i++) {
         crease_layout layout;
         if (finer(draft, bounds, tries[i].mask, tries[i].factor, &layout))
-            status = try_layout(context, draft, &layout, MARGIN, grown);
+            status = crease_explore_try(context, draft, &layout, CREASE_EXPLORE_MARGIN, grown);
     }
     return status;
 }
@@ -120,7 +115,7 @@ static crease_status grow_to_tolerance(
         taken = false;
         for (int mask = 3; mask > 0 && !taken && status == CREASE_OK; mask--)
             if (finer(draft, bounds, mask, 2, &layout))
-                status = try_layout(context, draft, &layout, -INFINITY, &taken);
+                status = crease_explore_try(context, draft, &layout, -INFINITY, &taken);
     }
     return status;
 }
@@ -133,11 +128,10 @@ static crease_status try_without(crease_context *context, crease_draft *draft,
     crease_layout_remove(&layout, direction, line);
     layout.axis[direction].smooth += more;
     crease_explore_keep_net(&layout, bounds);
-    return try_layout(context, draft, &layout, -MARGIN, taken);
+    return crease_explore_try(context, draft, &layout, -CREASE_EXPLORE_MARGIN, taken);
 }
 
-/* Tries every line: to leave it out, or with `tries` above 1 to put simple knots in its place. */
-static crease_status drop_lines(
+crease_status crease_explore_drop_lines(
     crease_context *context, crease_draft *draft, const crease_bounds *bounds, size_t tries)
 {
     static const size_t instead[] = {0, 1, 3, 8};
@@ -168,44 +162,14 @@ crease_status crease_explore(crease_context *context, crease_draft *draft,
     if (status == CREASE_OK)
         status = crease_lines_refine(context, draft, 12, turn);
     if (status == CREASE_OK)
-        status = drop_lines(context, draft, bounds, 1);
+        status = crease_explore_drop_lines(context, draft, bounds, 1);
     bool grown = true;
     while (grown && status == CREASE_OK) {
         grown = false;
         if (!(bounds->tolerance > 0.0))
-            status = grow(context, draft, bounds, &grown);
+            status = crease_explore_grow(context, draft, bounds, &grown);
     }
     if (status == CREASE_OK && bounds->tolerance > 0.0)
         status = grow_to_tolerance(context, draft, bounds);
-    return status;
-}
-
-/* Half as many spans along each direction, as long as that does about as well. */
-static crease_status thin_out(
-    crease_context *context, crease_draft *draft, const crease_bounds *bounds)
-{
-    crease_status status = CREASE_OK;
-    for (int d = 0; d < 2; d++) {
-        bool taken = bounds->net[d] == 0 && !(bounds->tolerance > 0.0);
-        while (
-            taken && draft->layout.axis[d].smooth > 2 * bounds->least[d] && status == CREASE_OK) {
-            crease_layout layout = draft->layout;
-            layout.axis[d].smooth = (layout.axis[d].smooth - 1) / 2;
-            status = try_layout(context, draft, &layout, -MARGIN, &taken);
-        }
-    }
-    return status;
-}
-
-crease_status crease_explore_prune(
-    crease_context *context, crease_draft *draft, const crease_bounds *bounds)
-{
-    crease_draft_place(draft);
-    crease_status status = crease_draft_fit(context, draft, ROUNDS, CREASE_CHOICE_NEAR);
-    if (status == CREASE_OK)
-        status = thin_out(context, draft, bounds);
-    /* A simple knot of order 2 is a crease itself. */
-    if (status == CREASE_OK)
-        status = drop_lines(context, draft, bounds, draft->layout.order > 2 ? 4 : 1);
     return status;
 }

@@ -10,6 +10,7 @@
 #include "fit/exact.h"
 #include "fit/isolate.h"
 #include "fit/lines.h"
+#include "fit/prune.h"
 #include "spline/sheet.h"
 
 #include <float.h>
@@ -230,7 +231,7 @@ crease_status crease_fitting_choose(crease_context *context, crease_fitting *f)
         status = crease_lines_refine(context, &f->draft, 12, turn);
     f->draft.orthogonal = false;
     if (status == CREASE_OK)
-        status = crease_explore_prune(context, &f->draft, &f->bounds);
+        status = crease_prune(context, &f->draft, &f->bounds, turn);
     crease_samples_free(&samples);
     return status;
 }

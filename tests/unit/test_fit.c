@@ -215,6 +215,39 @@ static void given_a_smooth_surface_then_no_crease(void **state)
     crease_context_free(context);
 }
 
+/* A hill that a coarse net cannot follow, over 100 x 100, with a crease or without. */
+static crease_sheet *when_a_hill_is_fitted(crease_context *context, double slope, uint64_t seed)
+{
+    enum { COUNT = 6000 };
+    static double points[COUNT][3];
+    for (uint64_t i = 0; i < COUNT; i++) {
+        const double x = 100 * crease_random_uniform(seed, 1, 2 * i);
+        const double y = 100 * crease_random_uniform(seed, 1, 2 * i + 1);
+        points[i][0] = x, points[i][1] = y;
+        points[i][2] = 10 * exp(-((x - 30) * (x - 30) + (y - 60) * (y - 60)) / 300) +
+            slope * fmax(0, x - 75) + 0.05 * crease_random_normal(seed, 2, i);
+    }
+    crease_cloud *cloud = given_cloud(context, points[0], COUNT);
+    crease_sheet *sheet = when_fitted(context, cloud, NULL);
+    crease_cloud_free(cloud);
+    return sheet;
+}
+
+static void given_a_hill_then_no_line_stands_in_for_simple_knots(void **state)
+{
+    crease_context *context = given_context();
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        crease_sheet *sheet = when_a_hill_is_fitted(context, 0, seed);
+        assert_int_equal(crease_sheet_line_count(sheet), 0);
+        crease_sheet_free(sheet);
+    }
+    crease_sheet *sheet = when_a_hill_is_fitted(context, 0.5, 7);
+    assert_int_equal(crease_sheet_line_count(sheet), 1);
+    assert_near(crease_sheet_line(sheet, 0).angle, 180 - atan(0.5) * 180 / 3.14159265358979, 0.5);
+    crease_sheet_free(sheet);
+    crease_context_free(context);
+}
+
 static void given_outliers_then_they_are_forgotten(void **state)
 {
     crease_context *context = given_context();
@@ -384,6 +417,7 @@ int main(void)
         cmocka_unit_test(given_creased_bicubic_data_then_the_fit_is_exact),
         cmocka_unit_test(given_a_block_on_a_plate_then_lines_follow_its_sides),
         cmocka_unit_test(given_a_smooth_surface_then_no_crease),
+        cmocka_unit_test(given_a_hill_then_no_line_stands_in_for_simple_knots),
         cmocka_unit_test(given_outliers_then_they_are_forgotten),
         cmocka_unit_test(given_a_net_then_it_has_that_size),
         cmocka_unit_test(given_other_orders_then_the_edge_is_exact_too),
