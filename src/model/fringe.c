@@ -81,18 +81,9 @@ static crease_status add_loop(crease_context *context, const crease_scatter *sca
 static crease_status find_rings(
     crease_context *context, const crease_scatter *scatter, double radius, struct rings *rings)
 {
-    crease_outline outline = {.loop_count = 0};
-    double *const points = crease_allocate(context, scatter->count, 6 * sizeof *points);
-    if (!points)
-        return CREASE_ERROR_NO_MEMORY;
-    double *const normals = points + 3 * scatter->count;
-    for (size_t i = 0; i < scatter->count; i++) {
-        memcpy(points + 3 * i, scatter->places + 2 * i, 2 * sizeof *points);
-        normals[3 * i + 2] = 1.0;
-    }
+    crease_outline outline;
     crease_status status =
-        crease_outline_find(context, points, normals, scatter->count, radius, &outline);
-    free(points);
+        crease_outline_find_flat(context, scatter->places, scatter->count, radius, &outline);
     if (status == CREASE_OK) {
         rings->items = crease_allocate(context, outline.loop_count, sizeof *rings->items);
         status = rings->items ? CREASE_OK : CREASE_ERROR_NO_MEMORY;

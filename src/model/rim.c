@@ -132,8 +132,8 @@ static crease_status add_region(struct task *task)
     if (status == CREASE_OK && enough)
         status = choose_disc(task);
     if (status == CREASE_OK && enough)
-        status = crease_outline_find(
-            task->graph->context, task->points, task->normals, task->count, task->disc, &outline);
+        status = crease_outline_find(task->graph->context, task->points, task->normals, task->count,
+            NULL, task->disc, &outline);
     for (size_t i = 0; i < outline.loop_count && status == CREASE_OK; i++)
         status = add_loop(
             task, outline.points + outline.first[i], outline.first[i + 1] - outline.first[i]);

@@ -28,7 +28,8 @@ struct terms {
 static void terms_at(const crease_smooth *line, double at, struct terms *out)
 {
     const double t = (at - line->begin) / line->length;
-    *out = (struct terms){.first = 0, .count = line->size};
+    out->first = 0; /* the values beyond `count` stay unset: there are many */
+    out->count = line->size;
     if (line->closed) {
         out->value[0] = 1.0;
         for (size_t h = 1; h <= line->spans; h++) {
@@ -121,11 +122,13 @@ static bool solve(const struct work *work, crease_smooth *line)
     return true;
 }
 
-/* Weighs the points by their sides of the line; sums their squared distances. */
-static void weigh(const struct work *work, crease_smooth *line)
+/* Weighs the points by their sides of the line; sums their squared distances. Whether a weight
+ * has changed. */
+static bool weigh(const struct work *work, crease_smooth *line)
 {
     const crease_strip *const strip = work->strip;
     const double step = 1e-4 * line->length;
+    bool changed = false;
     line->squares = 0.0;
     for (size_t i = 0; i < strip->count; i++) {
         double on[3], next[3], away[3], along[3];
@@ -139,9 +142,12 @@ static void weigh(const struct work *work, crease_smooth *line)
         const double ahead = crease_vector_dot(away, along);
         const double aside = crease_vector_dot(away, away) - ahead * ahead;
         const bool outside = crease_vector_dot(away, strip->outward + 3 * i) > 0.0;
-        work->weights[i] = outside ? OUTSIDE : 1.0 - OUTSIDE;
-        line->squares += 2.0 * work->weights[i] * fmax(aside, 0.0);
+        const double weight = outside ? OUTSIDE : 1.0 - OUTSIDE;
+        changed = changed || weight != work->weights[i];
+        work->weights[i] = weight;
+        line->squares += 2.0 * weight * fmax(aside, 0.0);
     }
+    return changed;
 }
 
 static bool fit_spans(const struct work *work, crease_smooth *line, size_t spans)
@@ -151,10 +157,11 @@ static bool fit_spans(const struct work *work, crease_smooth *line, size_t spans
     line->freedom = 2.0 * (double)line->size;
     for (size_t i = 0; i < work->strip->count; i++)
         work->weights[i] = 1.0;
-    for (int pass = 0; pass < PASSES; pass++) {
+    bool changed = true; /* the same weights give the same line */
+    for (int pass = 0; pass < PASSES && changed; pass++) {
         if (!solve(work, line))
             return false;
-        weigh(work, line);
+        changed = weigh(work, line);
     }
     return true;
 }

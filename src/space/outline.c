@@ -38,6 +38,7 @@ struct search {
     const crease_tree *tree;
     const double *points, *normals;
     size_t count;
+    const bool *touched; /* NULL: any point may be */
     double radius;
     size_t *arc_counts; /* of each point, then where its arcs begin */
     struct arc *arcs;   /* NULL while they are counted */
@@ -154,6 +155,8 @@ static void search_points(void *user, size_t begin, size_t end, int worker)
     for (size_t i = begin; i < end; i++) {
         const uint32_t point = (uint32_t)i;
         size_t found = 0;
+        if (s->touched && !s->touched[i])
+            continue;
         if (s->arcs ? s->arc_counts[i + 1] == s->arc_counts[i] : is_inside(s, point, scratch))
             continue;
         crease_tree_within(
@@ -262,9 +265,10 @@ static crease_status link_arcs(crease_context *context, const struct search *s, 
 }
 
 crease_status crease_outline_find(crease_context *context, const double *points,
-    const double *normals, size_t count, double radius, crease_outline *out)
+    const double *normals, size_t count, const bool *touched, double radius, crease_outline *out)
 {
-    struct search s = {.points = points, .normals = normals, .count = count, .radius = radius};
+    struct search s = {
+        .points = points, .normals = normals, .count = count, .touched = touched, .radius = radius};
     crease_tree *tree = NULL;
     *out = (crease_outline){.loop_count = 0};
     crease_status status = crease_tree_create(context, points, count, &tree);

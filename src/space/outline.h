@@ -20,11 +20,16 @@ typedef struct crease_outline {
     uint32_t *points; /* indices */
 } crease_outline;
 
-/* normals: unit vectors, of which neighbours agree. radius: of the disc; holes and bays that it
+/* normals: unit vectors, of which neighbours agree. touched: of each point, whether the disc may
+ * touch it; NULL: any. The others are only in its way. radius: of the disc; holes and bays that it
  * does not fit into are none. Lines of single points that stand out of the rest are left out, as
  * are single points and pairs. O(n log n), threaded. Errors: NO_MEMORY, CANCELLED. */
 crease_status crease_outline_find(crease_context *context, const double *points,
-    const double *normals, size_t count, double radius, crease_outline *out);
+    const double *normals, size_t count, const bool *touched, double radius, crease_outline *out);
+/* The same of points in a plane, count x 2, seen from above. Only those near the borders are looked
+ * at: O(count) beside O(n log n) for these n. */
+crease_status crease_outline_find_flat(crease_context *context, const double *places, size_t count,
+    double radius, crease_outline *out);
 void crease_outline_clear(crease_outline *outline);
 
 #endif

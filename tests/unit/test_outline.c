@@ -57,8 +57,8 @@ static scene *given_cells(bool (*there)(double x, double y))
 
 static void when_rolled(scene *s, double radius)
 {
-    assert_int_equal(
-        crease_outline_find(s->context, s->points[0], s->normals[0], s->count, radius, &s->outline),
+    assert_int_equal(crease_outline_find(s->context, s->points[0], s->normals[0], s->count, NULL,
+                         radius, &s->outline),
         CREASE_OK);
 }
 
@@ -224,7 +224,7 @@ static void given_no_memory_then_it_says_so(void **state)
     for (long n = 0; status != CREASE_OK && n < 50; n++) {
         crease_context_fail_allocation(s->context, n);
         status = crease_outline_find(
-            s->context, s->points[0], s->normals[0], s->count, 3 * S, &s->outline);
+            s->context, s->points[0], s->normals[0], s->count, NULL, 3 * S, &s->outline);
         assert_true(status == CREASE_OK || status == CREASE_ERROR_NO_MEMORY);
         if (status != CREASE_OK)
             assert_null(s->outline.points);
