@@ -12,7 +12,7 @@ typedef struct deviation_summary {
     double rms, p95, most; /* of their sizes */
 } deviation_summary;
 
-/** All zero for no deviations, or when memory runs out. */
+/** All zero for no deviations. */
 deviation_summary deviation_summarise(const double *deviations, size_t count);
 /** Adds the numbers to an object of the report. */
 void deviation_describe(cJSON *object, deviation_summary summary);

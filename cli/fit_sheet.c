@@ -9,7 +9,9 @@
 #include "outputs.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* A larger net would hide in a figure what it surrounds; on the page it can be switched off. */
 enum { MOST_NET_IN_FIGURE = 100 };
@@ -144,6 +146,24 @@ static void describe_lines(report *r, const result *all)
     }
 }
 
+/* A row of control points as text: of a large net, items for each number would take longer and more
+ * memory than the fit. */
+static cJSON *row_to_json(const double *points, size_t count)
+{
+    enum { LONGEST = 28 }; /* of a number, with what is beside it */
+    const size_t room = 3 * LONGEST * count + sizeof "[]";
+    char *const text = malloc(room);
+    size_t length = 0;
+    for (size_t i = 0; text && i < count; i++, points += 3)
+        length += (size_t)snprintf(text + length, room - length, "%s[%.17g, %.17g, %.17g]",
+            i ? ", " : "[", points[0], points[1], points[2]);
+    if (text)
+        memcpy(text + length, "]", sizeof "]");
+    cJSON *const row = text ? cJSON_CreateRaw(text) : NULL;
+    free(text);
+    return row;
+}
+
 static void describe_surface(report *r, const crease_surface *surface)
 {
     const crease_surface_parts parts = crease_surface_parts_of(surface);
@@ -156,13 +176,9 @@ static void describe_surface(report *r, const crease_surface *surface)
             cJSON_CreateDoubleArray(parts.knots[d], (int)parts.count[d] + parts.order[d]));
     }
     cJSON *net = cJSON_AddArrayToObject(object, "control_points");
-    for (size_t i = 0; i < parts.count[0]; i++) {
-        cJSON *row = cJSON_CreateArray();
-        for (size_t j = 0; j < parts.count[1]; j++)
-            cJSON_AddItemToArray(row,
-                cJSON_CreateDoubleArray(parts.control_points + 3 * (i * parts.count[1] + j), 3));
-        cJSON_AddItemToArray(net, row);
-    }
+    for (size_t i = 0; i < parts.count[0]; i++)
+        cJSON_AddItemToArray(
+            net, row_to_json(parts.control_points + 3 * i * parts.count[1], parts.count[1]));
 }
 
 static cJSON *curve_to_json(const crease_curve *curve)

@@ -39,6 +39,7 @@ static crease_status finish(
     if (status == CREASE_OK)
         status = crease_fitting_sheet(context, f, sheet);
     crease_samples_free(&samples);
+    crease_system_free(&f->draft.system); /* before all points are projected */
     return status;
 }
 

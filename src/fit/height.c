@@ -4,11 +4,14 @@
 #include "fit/height.h"
 
 #include "base/memory.h"
+#include "base/simd.h"
 #include "spline/basis.h"
 #include "spline/knots.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+enum { CUBIC = 4 };
 
 crease_status crease_height_create(
     crease_context *context, const crease_layout *layout, crease_height *out)
@@ -58,19 +61,27 @@ void crease_height_support(const crease_height *height, const double uv[2],
     }
 }
 
-static double combine(
-    const crease_height *height, const crease_support *s, const double *u, const double *v)
+/* Value, and with derivatives the slopes, of a net of this order. */
+CREASE_INLINE void combine(const crease_height *height, const crease_support *s, size_t order,
+    bool derivatives, double out[3])
 {
-    double sum = 0.0;
-    for (int i = 0; i < height->order; i++) {
+    out[0] = 0.0;
+    for (size_t d = 1; d < 3 && derivatives; d++)
+        out[d] = 0.0;
+    for (size_t i = 0; i < order; i++) {
         const double *const c =
-            height->coefficients + (s->first[0] + (size_t)i) * height->count[1] + s->first[1];
-        double row = 0.0;
-        for (int j = 0; j < height->order; j++)
-            row += v[j] * c[j];
-        sum += u[i] * row;
+            height->coefficients + (s->first[0] + i) * height->count[1] + s->first[1];
+        double row = 0.0, slope = 0.0;
+        for (size_t j = 0; j < order; j++)
+            row += s->values[1][j] * c[j];
+        for (size_t j = 0; j < order && derivatives; j++)
+            slope += s->slopes[1][j] * c[j];
+        out[0] += s->values[0][i] * row;
+        if (derivatives) {
+            out[1] += s->slopes[0][i] * row;
+            out[2] += s->values[0][i] * slope;
+        }
     }
-    return sum;
 }
 
 void crease_height_at(const crease_height *height, const double uv[2], const crease_side sides[2],
@@ -78,11 +89,12 @@ void crease_height_at(const crease_height *height, const double uv[2], const cre
 {
     crease_support s;
     crease_height_support(height, uv, sides, derivatives, &s);
-    out[0] = combine(height, &s, s.values[0], s.values[1]);
-    if (!derivatives)
-        return;
-    out[1] = combine(height, &s, s.slopes[0], s.values[1]);
-    out[2] = combine(height, &s, s.values[0], s.slopes[1]);
+    if (height->order != CUBIC)
+        combine(height, &s, (size_t)height->order, derivatives, out);
+    else if (derivatives)
+        combine(height, &s, CUBIC, true, out);
+    else
+        combine(height, &s, CUBIC, false, out);
 }
 
 crease_status crease_height_surface(crease_context *context, const crease_height *height,

@@ -93,31 +93,45 @@ void crease_samples_free(crease_samples *samples)
     *samples = (crease_samples){0};
 }
 
-void crease_samples_place(
-    crease_samples *samples, const crease_frame *frame, double low[2], double high[2])
+static bool is_same(const crease_frame *a, const crease_frame *b)
 {
-    double bottom = INFINITY, top = -INFINITY;
-    for (int c = 0; c < 2; c++)
-        low[c] = INFINITY, high[c] = -INFINITY;
+    return memcmp(a->origin, b->origin, sizeof a->origin) == 0 &&
+        memcmp(a->rotation, b->rotation, sizeof a->rotation) == 0;
+}
+
+static void enter(crease_samples *samples, const crease_frame *frame)
+{
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (size_t i = 0; i < samples->count; i++) {
         double *const p = samples->points + 3 * i;
         crease_frame_enter(frame, samples->source + 3 * crease_samples_number(samples, i), 1, p);
-        for (size_t c = 0; c < 2; c++) {
-            samples->uv[2 * i + c] = p[c];
-            if (samples->prior[i] > 0.0) {
-                low[c] = fmin(low[c], p[c]);
-                high[c] = fmax(high[c], p[c]);
-            }
+        for (size_t c = 0; c < 3 && samples->prior[i] > 0.0; c++) {
+            low[c] = p[c] < low[c] ? p[c] : low[c];
+            high[c] = p[c] > high[c] ? p[c] : high[c];
         }
-        if (samples->prior[i] > 0.0) {
-            bottom = fmin(bottom, p[2]);
-            top = fmax(top, p[2]);
-        }
+    }
+    samples->frame = *frame;
+    samples->placed = true;
+    memcpy(samples->low, low, sizeof samples->low);
+    memcpy(samples->high, high, sizeof samples->high);
+    samples->bottom = low[2];
+    samples->range = fmax(0.0, high[2] - low[2]);
+}
+
+void crease_samples_place(
+    crease_samples *samples, const crease_frame *frame, double low[2], double high[2])
+{
+    if (!samples->placed || !is_same(frame, &samples->frame))
+        enter(samples, frame);
+    memcpy(low, samples->low, sizeof samples->low);
+    memcpy(high, samples->high, sizeof samples->high);
+    for (size_t i = 0; i < samples->count; i++) {
+        const double *const p = samples->points + 3 * i;
+        samples->uv[2 * i] = p[0];
+        samples->uv[2 * i + 1] = p[1];
         samples->target[i] = p[2];
         samples->tilt[i] = 1.0;
     }
-    samples->bottom = bottom;
-    samples->range = fmax(0.0, top - bottom);
 }
 
 /* ---------------------------------------------------------------------------------- distances --

@@ -21,8 +21,11 @@ typedef struct crease_samples {
     double *scratch;      /* count */
     double used;          /* sum of prior */
     double spacing;       /* mean distance of neighbours */
-    double bottom, range; /* of the heights of the points kept */
-    double rounding;      /* below this a distance means nothing */
+    bool placed;
+    crease_frame frame;     /* in which they are placed */
+    double low[2], high[2]; /* the box of the points kept there */
+    double bottom, range;   /* of the heights of the points kept */
+    double rounding;        /* below this a distance means nothing */
 } crease_samples;
 
 /* Every step-th point of count; the points must outlive the samples. keep: 0 for points to leave

@@ -8,6 +8,7 @@
 #include "base/simd.h"
 #include "spline/basis.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -117,24 +118,97 @@ CREASE_VECTORISED static void add_products(
         y[j] += a[j] * x[j];
 }
 
+/* Adds `terms` products at each place: number t of a[t stride + j] with x[t step + j]. All at once,
+ * so that y is read and written once. */
+CREASE_INLINE void add_all(const double *restrict a, size_t stride, const double *restrict x,
+    ptrdiff_t step, size_t terms, size_t count, double *restrict y)
+{
+    for (size_t j = 0; j < count; j++) {
+        double sum = y[j];
+        for (size_t t = 0; t < terms; t++)
+            sum += a[t * stride + j] * x[(ptrdiff_t)t * step + (ptrdiff_t)j];
+        y[j] = sum;
+    }
+}
+
+enum { BICUBIC_TERMS = 7, BICUBIC_HALF = 3 };
+
+CREASE_VECTORISED static void add_seven(const double *restrict a, size_t stride,
+    const double *restrict x, ptrdiff_t step, size_t count, double *restrict y)
+{
+    if (step > 0)
+        add_all(a, stride, x, 1, BICUBIC_TERMS, count, y);
+    else
+        add_all(a, stride, x, -1, BICUBIC_TERMS, count, y);
+}
+
+CREASE_VECTORISED static void add_three(const double *restrict a, size_t stride,
+    const double *restrict x, ptrdiff_t step, size_t count, double *restrict y)
+{
+    if (step > 0)
+        add_all(a, stride, x, 1, BICUBIC_HALF, count, y);
+    else
+        add_all(a, stride, x, -1, BICUBIC_HALF, count, y);
+}
+
+/* The couplings of one row of control points with another: number t of `terms` couples place j of
+ * this one with place j + step (t - from) of the other, and stands at a[t stride + j]. */
+typedef struct couplings {
+    const double *a, *x;
+    size_t stride, terms;
+    ptrdiff_t step, from;
+} couplings;
+
+/* Places begin .. end - 1 of one coupling, as far as the other row reaches. */
+static void add_one(const couplings *c, size_t t, size_t begin, size_t end, size_t n, double *y)
+{
+    const ptrdiff_t shift = c->step * ((ptrdiff_t)t - c->from);
+    const size_t low = shift < 0 ? (size_t)-shift : 0, high = shift > 0 ? n - (size_t)shift : n;
+    const size_t first = begin > low ? begin : low, last = end < high ? end : high;
+    const double *const a = c->a + t * c->stride;
+    for (size_t j = first; j < last; j++)
+        y[j] += a[j] * c->x[(ptrdiff_t)j + shift];
+}
+
+static void add_couplings_of(const couplings *c, size_t degree, size_t n, double *y)
+{
+    const bool seven = c->terms == BICUBIC_TERMS, three = c->terms == BICUBIC_HALF;
+    const bool once = (seven || three) && degree == BICUBIC_HALF && n > 2 * degree;
+    const size_t low = once ? degree : n, high = once ? n - degree : n;
+    for (size_t t = 0; t < c->terms; t++) {
+        add_one(c, t, 0, low, n, y);
+        add_one(c, t, high, n, n, y);
+    }
+    if (once)
+        (seven ? add_seven : add_three)(c->a + low, c->stride,
+            c->x + (ptrdiff_t)low - c->step * c->from, c->step, high - low, y + low);
+}
+
 /* What couplings to the control points after those of the row give it, and to those before. */
 static void add_rows(const product *p, size_t i, size_t di, double *y)
 {
     const crease_stencil *const s = p->stencil;
-    const size_t degree = s->order - 1, n = s->count[1];
-    const bool after = i + di < s->count[0], before = di <= i;
-    const double *const next = after ? p->x + (i + di) * n : NULL;
-    const double *const last = before ? p->x + (i - di) * n : NULL;
-    for (size_t b = di ? 0 : degree; b <= 2 * degree; b++) {
-        const size_t k = (2 * degree + 1) * di + b - degree;
-        const size_t right = b > degree ? b - degree : 0, left = b < degree ? degree - b : 0;
-        if (right + left >= n)
-            continue;
-        const size_t width = n - right - left;
-        if (after)
-            add_products(row_of(s, i, k) + left, next + right, width, y + left);
-        if (before && k > 0)
-            add_products(row_of(s, i - di, k) + left, last + left, width, y + right);
+    const size_t degree = s->order - 1, n = s->count[1], span = 2 * degree + 1;
+    if (di == 0) {
+        const double *const x = p->x + i * n;
+        add_products(row_of(s, i, 0), x, n, y);
+        const couplings after = {row_of(s, i, 1), x, n, degree, 1, -1};
+        /* their mirror images stand where the other control point is */
+        const couplings before = {row_of(s, i, 1) - 1, x, n - 1, degree, -1, -1};
+        add_couplings_of(&after, degree, n, y);
+        add_couplings_of(&before, degree, n, y);
+        return;
+    }
+    const size_t k = span * di - degree;
+    const ptrdiff_t from = (ptrdiff_t)degree;
+    if (i + di < s->count[0]) {
+        const couplings after = {row_of(s, i, k), p->x + (i + di) * n, n, span, 1, from};
+        add_couplings_of(&after, degree, n, y);
+    }
+    if (di <= i) {
+        const couplings before = {
+            row_of(s, i - di, k) + degree, p->x + (i - di) * n, n - 1, span, -1, from};
+        add_couplings_of(&before, degree, n, y);
     }
 }
 

@@ -6,7 +6,11 @@
  * forms. 1989. */
 #include "spline/basis.h"
 
+#include "base/simd.h"
+
 #include <string.h>
+
+enum { CUBIC = 4 };
 
 double crease_basis_clamp(const double *knots, int order, size_t count, double t)
 {
@@ -73,7 +77,7 @@ size_t crease_basis_span(const double *knots, int order, size_t count, double t,
 /* One step of the triangular scheme: functions of order j become those of order j + 1. What is
  * divided by holds the span, so it is never zero; at the ends of the span the share is exactly 0 or
  * 1, so that a clamped end is exactly its control point. */
-static void raise_order(const double *knots, size_t span, double t, size_t j, double *values)
+CREASE_INLINE void raise_order(const double *knots, size_t span, double t, size_t j, double *values)
 {
     double saved = 0.0;
     for (size_t r = 0; r < j; r++) {
@@ -87,11 +91,21 @@ static void raise_order(const double *knots, size_t span, double t, size_t j, do
     values[j] = saved;
 }
 
-void crease_basis_values(const double *knots, int order, size_t span, double t, double *values)
+CREASE_INLINE void find_values(
+    const double *knots, size_t order, size_t span, double t, double *values)
 {
     values[0] = 1.0;
-    for (size_t j = 1; j < (size_t)order; j++)
+    for (size_t j = 1; j < order; j++)
         raise_order(knots, span, t, j, values);
+}
+
+/* Cubics, which nearly all splines are, get loops of known length. */
+void crease_basis_values(const double *knots, int order, size_t span, double t, double *values)
+{
+    if (order == CUBIC)
+        find_values(knots, CUBIC, span, t, values);
+    else
+        find_values(knots, (size_t)order, span, t, values);
 }
 
 void crease_basis_blossom(
@@ -105,7 +119,7 @@ void crease_basis_blossom(
 /* One differentiation: a spline of order j + 1 has the derivative sum_r d_r N_r of order j with
  * d_r = j (c_r - c_{r-1}) / length. Read backwards, derivatives of order j become those of order
  * j + 1, one higher. */
-static void differentiate(const double *knots, size_t span, size_t j, double *values)
+CREASE_INLINE void differentiate(const double *knots, size_t span, size_t j, double *values)
 {
     double saved = 0.0;
     for (size_t r = 0; r < j; r++) {
@@ -117,19 +131,34 @@ static void differentiate(const double *knots, size_t span, size_t j, double *va
     values[j] = saved;
 }
 
-void crease_basis_derivatives(
-    const double *knots, int order, size_t span, double t, int derivatives, double *out)
+CREASE_INLINE void find_derivatives(
+    const double *knots, size_t size, size_t span, double t, size_t rows, double *out)
 {
-    const size_t size = (size_t)order, rows = (size_t)derivatives + 1;
     double values[CREASE_ORDER_MAX] = {1.0};
-    memset(out, 0, rows * size * sizeof *out);
     for (size_t j = 1; j <= size; j++) { /* the values are those of order j */
-        if (size - j < rows)
+        if (size - j < rows) {
             memcpy(out + (size - j) * size, values, j * sizeof *out);
+            memset(out + (size - j) * size + j, 0, (size - j) * sizeof *out);
+        }
         if (j < size)
             raise_order(knots, span, t, j, values);
     }
     for (size_t d = 1; d < rows && d < size; d++)
         for (size_t j = size - d; j < size; j++)
             differentiate(knots, span, j, out + d * size);
+}
+
+void crease_basis_derivatives(
+    const double *knots, int order, size_t span, double t, int derivatives, double *out)
+{
+    const size_t size = (size_t)order, rows = (size_t)derivatives + 1;
+    if (order == CUBIC && rows == 2) {
+        find_derivatives(knots, CUBIC, span, t, 2, out);
+    } else if (order == CUBIC && rows == 3) {
+        find_derivatives(knots, CUBIC, span, t, 3, out);
+    } else {
+        find_derivatives(knots, size, span, t, rows, out);
+        if (rows > size)
+            memset(out + size * size, 0, (rows - size) * size * sizeof *out);
+    }
 }
