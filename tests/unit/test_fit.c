@@ -227,7 +227,7 @@ static crease_sheet *when_a_hill_is_fitted(crease_context *context, double slope
         points[i][2] = 10 * exp(-((x - 30) * (x - 30) + (y - 60) * (y - 60)) / 300) +
             slope * fmax(0, x - 75) + 0.05 * crease_random_normal(seed, 2, i);
     }
-    crease_cloud *cloud = given_cloud(context, points[0], COUNT);
+    crease_cloud *cloud = given_cloud_of(context, points[0], COUNT);
     crease_sheet *sheet = when_fitted(context, cloud, NULL);
     crease_cloud_free(cloud);
     return sheet;
