@@ -13,6 +13,7 @@
 #include "model/face.h"
 #include "model/loop.h"
 #include "model/missing.h"
+#include "model/overshoot.h"
 #include "model/relax.h"
 #include "model/rim.h"
 #include "model/seam.h"
@@ -45,7 +46,9 @@ static crease_status close_gaps(crease_graph *graph, const crease_links *links, 
     const crease_ground ground = crease_ground_of_models(graph);
     if (bordered)
         return crease_rims_add(graph, &ground);
-    crease_status status = crease_bridges_build(graph, links);
+    crease_status status = crease_overshoots_retract(graph);
+    if (status == CREASE_OK)
+        status = crease_bridges_build(graph, links);
     if (status == CREASE_OK)
         status = crease_missing_find(graph, links);
     return status == CREASE_OK ? crease_seams_relax(graph) : status;

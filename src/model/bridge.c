@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "base/vector.h"
 #include "model/contact.h"
+#include "model/overshoot.h"
 #include "model/trail.h"
 
 #include <math.h>
@@ -17,6 +18,7 @@ static const double STEP = 0.5;
 static const double REACH = 2.0;     /* of vertices from the curve that they are on */
 static const double ONE = 1.0;       /* between surfaces that are nearly one */
 static const double LONGEST = 15.0;  /* bridge between such */
+static const double NEAR = 6.0;      /* bridge where no points are linked, over a gap in them */
 static const double SAME_EDGE = 1.0; /* between a bridge and an edge that is there already */
 
 static const double ALIKE = 0.9; /* cosine between the normals of surfaces that are nearly one */
@@ -211,16 +213,7 @@ static crease_status retract(const crease_graph *graph, const struct gap *gap, i
             edge->vertices[end] != leaf || edge->vertices[1 - end] == to ||
             crease_edge_distance(edge, place) > SAME_EDGE * graph->survey->spacing)
             continue;
-        size_t nearest = 0;
-        if (!end)
-            crease_edge_reverse(edge);
-        for (size_t i = 0; i < edge->count; i++)
-            if (crease_vector_distance(edge->points + 3 * i, place) <
-                crease_vector_distance(edge->points + 3 * nearest, place))
-                nearest = i;
-        crease_edge_erase(edge, nearest > 0 ? nearest : 1, edge->count);
-        edge->vertices[1] = to;
-        return crease_edge_append(graph->context, edge, place);
+        return crease_edge_retract(graph, edge, end, to);
     }
     return CREASE_OK;
 }
@@ -263,13 +256,17 @@ static crease_status bridge(crease_graph *graph, const struct gap *gap)
 static crease_status follow_links(
     crease_graph *graph, const crease_links *links, const struct gap *gap)
 {
-    crease_loose loose = {.count = 0};
+    crease_loose loose = {.regions = {gap->regions[0], gap->regions[1]}};
     crease_edge edge = {.count = 0};
     bool found = false;
     size_t run[2];
-    if (!is_open(graph, gap) || !crease_links_between(links, gap->regions, run))
-        return CREASE_OK;
-    crease_status status = crease_loose_find(graph, links, run[0], run[1], &loose);
+    crease_status status = CREASE_OK;
+    if (!is_open(graph, gap))
+        return status;
+    if (crease_links_between(links, gap->regions, run))
+        status = crease_loose_find(graph, links, run[0], run[1], &loose);
+    else if (gap->length > NEAR * graph->survey->spacing)
+        return status;
     if (status == CREASE_OK)
         status = crease_trail_lay(graph, &loose, gap->vertices, &edge, &found);
     if (status == CREASE_OK && found)

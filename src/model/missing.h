@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* Edges that parity still asks for when creases, seams and bridges are there: between two vertices
- * that lack an edge of the same two regions, or from three such pairs to a corner in which three
- * regions meet smoothly, of which no surface tells where it is. */
+/* Edges that parity still asks for when creases, seams and bridges are there: from vertices
+ * that lack an edge of two regions each, and whose pairs of regions form a cycle, to the corners in
+ * which these meet smoothly, of which no surface tells where they are. */
 #ifndef CREASE_MODEL_MISSING_H
 #define CREASE_MODEL_MISSING_H
 

@@ -13,10 +13,10 @@ enum { ROUNDS = 24 };
 
 /* In spacings. */
 static const double STEP = 0.5;
-static const double APART = 2.0; /* that surfaces may be at most, ... */
-static const double MEAN_APART = 0.6;
-static const double BESIDE = 1.5;  /* points so near to a vertex may lead past it */
-static const double ASTRAY = 0.25; /* across the edge */
+static const double APART = 2.0;      /* that surfaces may be at most, and twice the noise, ... */
+static const double MEAN_APART = 0.6; /* and on average, and the noise */
+static const double BESIDE = 1.5;     /* points so near to a vertex may lead past it */
+static const double ASTRAY = 0.25;    /* across the edge */
 
 void crease_edge_smooth(crease_edge *edge, int rounds)
 {
@@ -43,7 +43,8 @@ bool crease_edge_lay_midway(const crease_graph *graph, crease_edge *edge)
         sum += apart;
         most = fmax(most, apart);
     }
-    return most <= APART * s && sum <= MEAN_APART * s * (double)edge->count;
+    const double noise = graph->survey->sigma;
+    return most <= APART * s + 2.0 * noise && sum <= (MEAN_APART * s + noise) * (double)edge->count;
 }
 
 /* Appends even steps from the last point to a place. */

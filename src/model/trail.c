@@ -134,14 +134,22 @@ static void angles_along(const crease_graph *graph, const crease_edge *edge, dou
     }
 }
 
-/* Moves the points between the ends to the curve in which the surfaces cut each other. */
-static bool lay_on_curve(const crease_graph *graph, crease_edge *edge)
+/* Moves the points between the ends to the curve in which the surfaces cut each other; none where
+ * that is out of reach of some. */
+static crease_status lay_on_curve(const crease_graph *graph, crease_edge *edge, bool *found)
 {
     const double reach = REACH * graph->survey->spacing;
-    for (size_t i = 1; i + 1 < edge->count; i++)
-        if (!crease_graph_project(graph, edge->regions, reach, edge->points + 3 * i))
-            return false;
-    return true;
+    double *const kept =
+        crease_duplicate(graph->context, edge->points, edge->count, 3 * sizeof *kept);
+    if (!kept)
+        return CREASE_ERROR_NO_MEMORY;
+    *found = true;
+    for (size_t i = 1; i + 1 < edge->count && *found; i++)
+        *found = crease_graph_project(graph, edge->regions, reach, edge->points + 3 * i);
+    if (!*found)
+        memcpy(edge->points, kept, 3 * edge->count * sizeof *kept);
+    free(kept);
+    return CREASE_OK;
 }
 
 /* The same where they do so, for surfaces that join smoothly on one part of the way and with an
@@ -173,10 +181,10 @@ static crease_status lay(const crease_graph *graph, crease_edge *edge, bool *fou
     crease_edge_smooth(edge, ROUNDS);
     angles_along(graph, edge, cosines);
     if (cosines[0] < CROSSING_COSINE) {
-        *found = lay_on_curve(graph, edge);
-        return status;
-    }
-    if (cosines[1] < SMOOTH_COSINE)
+        status = lay_on_curve(graph, edge, found);
+        if (status != CREASE_OK || *found)
+            return status;
+    } else if (cosines[1] < SMOOTH_COSINE)
         status = lay_on_part(graph, edge);
     edge->smooth = edge->loose = true;
     *found = status == CREASE_OK && crease_edge_lay_midway(graph, edge);

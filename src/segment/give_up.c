@@ -6,11 +6,14 @@
 #include "segment/segmentation.h"
 
 #include "base/memory.h"
+#include "base/vector.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 enum { MOST_ADJACENT = 64, LONELY = 12, MOST_PASSES = 8 };
+
+static const double ABREAST = 0.8; /* points per spacing along a region */
 
 typedef struct surroundings {
     int count;
@@ -55,6 +58,20 @@ static int32_t second_choice(
     return best;
 }
 
+/* Whether the members lie along a line, clearly less than one abreast: no face is seen so narrow.
+ */
+static bool is_thread(const crease_segmentation *seg, size_t region)
+{
+    const size_t begin = seg->first[region], end = seg->first[region + 1];
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (size_t m = begin; m < end; m++)
+        for (size_t c = 0; c < 3; c++) {
+            low[c] = fmin(low[c], seg->points[3 * (size_t)seg->members[m] + c]);
+            high[c] = fmax(high[c], seg->points[3 * (size_t)seg->members[m] + c]);
+        }
+    return ABREAST * crease_vector_distance(low, high) > (double)(end - begin) * seg->spacing;
+}
+
 /* Whether the description of the points is shorter without the region: its parameters and its
  * border are saved. */
 static bool is_dispensable(
@@ -62,7 +79,7 @@ static bool is_dispensable(
 {
     const size_t begin = seg->first[region], end = seg->first[region + 1];
     const crease_model *const model = &seg->models[region];
-    if (end - begin < seg->least_points)
+    if (end - begin < seg->least_points || is_thread(seg, region))
         return true;
     double keep = model->parameter_count * log(fmax((double)(end - begin), 2.0)) +
         CREASE_LINK_PRICE * (double)around->cut;

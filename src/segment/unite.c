@@ -7,150 +7,73 @@
  * fillets and their planes join without an angle as well.
  *
  * Based on: Schwarz. Estimating the dimension of a model. 1978. */
-#include "segment/segmentation.h"
-
-#include "base/memory.h"
-#include "base/vector.h"
+#include "segment/border.h"
 #include "segment/patch.h"
+#include "segment/vague.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 enum {
     MOST_REGIONS = 400,
     MOST_TRIALS = 600, /* fits: what bounds the time */
-    LEAST_LINKS = 3,
     LEAST_WIDE_LINKS = 12,
     SAMPLE = 3000,
-    MORE_SPANS = 2,
-    LOOKED_AT = 32, /* points that tell how much a region turns */
-    SMALL = 60,     /* points of a plane that may be a piece of something else */
-    FEW = 150       /* and of other pieces */
+    MORE_SPANS = 2
 };
 
 static const double SMOOTH = 0.98;       /* mean cosine at a border without an angle */
-static const double FORMS_SMOOTH = 0.95; /* of two free forms, which go on straight: 18 degrees */
-static const double SHARP = 0.985;       /* cosine of 10 degrees: less is an angle */
+static const double VAGUE_SMOOTH = 0.95; /* of two guesses, which may err there: 18 degrees */
 static const double SHARP_SHARE = 0.1;   /* of the links that may show one */
 static const double CLOSE = 1.1;         /* times the noise and what the own models leave */
-static const double FLAT_COSINE = 0.966; /* 15 degrees from the mean normal */
-
-/* What the links between two regions, the first the lower, show. */
-struct border {
-    uint32_t links, sharp;
-    double agreement; /* sum of the cosines between the gradients */
-    double parallel;  /* and of their absolute values */
-    bool tried;
-};
 
 struct uniting {
     crease_segmentation *seg;
     bool wide;
-    size_t count, trials;
-    struct border *borders; /* count x count */
+    size_t trials;
+    double rough; /* mean square residual of primitives that are none */
+    crease_borders borders;
 };
 
 /* Two regions on trial: a sample of both, that of the first before that of the second. */
 struct pair {
     size_t regions[2], sizes[2], sampled[2];
-    const struct border *border;
+    const crease_border *border;
 };
 
 /* ----------------------------------------------------------------------------------- borders -- */
 
-static struct border *border_of(const struct uniting *run, int32_t a, int32_t b)
+static bool is_vague(const struct uniting *run, size_t region)
 {
-    const size_t low = (size_t)(a < b ? a : b), high = (size_t)(a < b ? b : a);
-    return &run->borders[low * run->count + high];
-}
-
-static void add_link(const struct uniting *run, size_t point, int32_t a, int32_t b)
-{
-    const crease_segmentation *const seg = run->seg;
-    double first[3], second[3];
-    crease_model_distance(&seg->models[a], seg->points + 3 * point, first);
-    crease_model_distance(&seg->models[b], seg->points + 3 * point, second);
-    const double cosine = crease_vector_dot(first, second);
-    struct border *const border = border_of(run, a, b);
-    border->links++;
-    border->sharp += fabs(cosine) < SHARP;
-    border->agreement += cosine;
-    border->parallel += fabs(cosine);
-}
-
-/* Counts the links of one region anew, or, when it is CREASE_NO_LABEL, of all. */
-static void count_links(const struct uniting *run, int32_t region)
-{
-    const crease_segmentation *const seg = run->seg;
-    for (size_t r = 0; r < run->count && region >= 0; r++)
-        *border_of(run, region, (int32_t)r) = (struct border){0};
-    for (size_t i = 0; i < seg->count; i++)
-        for (int k = 1; k <= seg->border_links && seg->labels[i] >= 0; k++) {
-            const int32_t a = seg->labels[i], b = seg->labels[crease_segmentation_near(seg, i)[k]];
-            if (b >= 0 && a != b && (region < 0 || a == region || b == region))
-                add_link(run, i, a, b);
-        }
-}
-
-/* Whether the normals of a region turn so little that its kind is a guess. */
-static bool is_flat(const crease_segmentation *seg, size_t region)
-{
-    const uint32_t *const members = seg->members + seg->first[region];
-    const size_t size = crease_segmentation_size(seg, region);
-    const size_t taken = size < LOOKED_AT ? size : LOOKED_AT;
-    double gradients[LOOKED_AT][3], mean[3] = {0.0};
-    for (size_t i = 0; i < taken; i++) {
-        const double *const place = seg->points + 3 * (size_t)members[i * size / taken];
-        crease_model_distance(&seg->models[region], place, gradients[i]);
-        for (int c = 0; c < 3; c++)
-            mean[c] += gradients[i][c];
-    }
-    crease_vector_normalise(mean);
-    for (size_t i = 0; i < taken; i++)
-        if (crease_vector_dot(gradients[i], mean) < FLAT_COSINE)
-            return false;
-    return true;
-}
-
-static bool is_form(const crease_segmentation *seg, size_t region)
-{
-    return seg->models[region].type == CREASE_REGION_FREEFORM;
-}
-
-/* Free forms, and small pieces of anything else that hardly turn. */
-static bool is_vague(const crease_segmentation *seg, size_t region)
-{
-    if (is_form(seg, region))
-        return true;
-    if (seg->models[region].type == CREASE_REGION_PLANE)
-        return crease_segmentation_size(seg, region) < SMALL;
-    return crease_segmentation_size(seg, region) < FEW && is_flat(seg, region);
+    return crease_region_is_vague(run->seg, run->rough, region);
 }
 
 static bool may_unite(const struct uniting *run, size_t a, size_t b)
 {
-    const crease_segmentation *const seg = run->seg;
-    const struct border *const border = &run->borders[a * run->count + b];
+    const crease_border *const border = crease_borders_between(&run->borders, a, b);
     if (border->tried)
         return false;
     if (run->wide)
-        return border->links >= LEAST_WIDE_LINKS && border->sharp <= SHARP_SHARE * border->links;
-    const double smooth = is_form(seg, a) && is_form(seg, b) ? FORMS_SMOOTH : SMOOTH;
-    if (border->links < LEAST_LINKS || border->parallel < smooth * border->links)
+        return border->beside.links >= LEAST_WIDE_LINKS &&
+            border->beside.sharp <= SHARP_SHARE * border->beside.links;
+    const crease_border_contact *const contact = crease_border_told_by(border);
+    if (contact->links < CREASE_BORDER_LEAST_LINKS ||
+        contact->parallel < VAGUE_SMOOTH * contact->links)
         return false;
-    return is_form(seg, a) || is_form(seg, b) || (is_vague(seg, a) && is_vague(seg, b));
+    return contact->parallel >= SMOOTH * contact->links || (is_vague(run, a) && is_vague(run, b));
 }
 
 /* The smoothest border that may be opened; NULL when there is none. */
-static struct border *next_border(const struct uniting *run)
+static crease_border *next_border(const struct uniting *run)
 {
-    struct border *best = NULL;
+    const size_t count = run->borders.count;
+    crease_border *best = NULL;
     double least = INFINITY;
-    for (size_t a = 0; a < run->count; a++)
-        for (size_t b = a + 1; b < run->count; b++) {
-            struct border *const border = &run->borders[a * run->count + b];
-            const double bend = 1.0 - border->parallel / (double)border->links;
-            if (border->links > 0 && bend < least && may_unite(run, a, b)) {
+    for (size_t a = 0; a < count; a++)
+        for (size_t b = a + 1; b < count; b++) {
+            crease_border *const border = crease_borders_between(&run->borders, a, b);
+            const crease_border_contact *const contact = crease_border_told_by(border);
+            const double bend = 1.0 - contact->parallel / (double)contact->links;
+            if (contact->links > 0 && bend < least && may_unite(run, a, b)) {
                 least = bend;
                 best = border;
             }
@@ -199,7 +122,7 @@ static void take_sample(const struct uniting *run, struct pair *pair)
     for (int i = 0; i < 2; i++) {
         const size_t before = both->count;
         add_sample(run, pair->regions[i], 1 + (size_t)(SAMPLE * (double)pair->sizes[i] / total),
-            i && pair->border->agreement < 0.0, both);
+            i && crease_border_told_by(pair->border)->agreement < 0.0, both);
         pair->sampled[i] = both->count - before;
     }
 }
@@ -217,33 +140,46 @@ static bool is_close(const struct uniting *run, const struct pair *pair, const c
     return true;
 }
 
-/* Whether one surface describes the points shorter than the two and the border between them. */
-static bool is_shorter(
+/* Sum of the cut squared residuals of all points of the regions, extrapolated from the sample. */
+static double misfit_of_all(
     const struct uniting *run, const struct pair *pair, const crease_model *model)
 {
-    const double total = (double)(pair->sizes[0] + pair->sizes[1]);
-    double gain = CREASE_LINK_PRICE * pair->border->links - model->parameter_count * log(total);
-    for (int i = 0; i < 2; i++) {
-        const crease_model *const own = &run->seg->models[pair->regions[i]];
-        const double size = (double)pair->sizes[i], weight = size / (double)pair->sampled[i];
-        gain += own->parameter_count * log(size) +
-            weight * (misfit(run, pair, i, own) - misfit(run, pair, i, model));
-    }
-    return gain > 0.0;
+    double sum = 0.0;
+    for (int i = 0; i < 2; i++)
+        sum += (double)pair->sizes[i] / (double)pair->sampled[i] *
+            misfit(run, pair, i, model ? model : &run->seg->models[pair->regions[i]]);
+    return sum;
 }
 
-/* Fits one free form to both, beginning with so many spans; false when it will not do. */
+static double parameters_of(const struct pair *pair, const crease_model *model)
+{
+    return model->parameter_count * log((double)(pair->sizes[0] + pair->sizes[1]));
+}
+
+/* What the description of the points by the two surfaces and the border between them takes. */
+static double cost_apart(const struct uniting *run, const struct pair *pair)
+{
+    double cost = CREASE_LINK_PRICE * pair->border->beside.links + misfit_of_all(run, pair, NULL);
+    for (int i = 0; i < 2; i++)
+        cost += run->seg->models[pair->regions[i]].parameter_count * log((double)pair->sizes[i]);
+    return cost;
+}
+
+/* Fits one surface to both, free forms with about so many spans; false when it will not do: it is
+ * not as close, or, unless they are vague, does not make the description shorter. */
 static bool fit_both(struct uniting *run, const struct pair *pair, int spans, bool vague)
 {
     crease_fitter *const fitter = &run->seg->fitters[0];
     const crease_sample *const both = &fitter->sample;
+    const double apart = vague ? INFINITY : cost_apart(run, pair);
     crease_model warm = {.type = CREASE_REGION_FREEFORM, .cost = INFINITY};
     warm.patch.spline = warm.patch.round = true;
     warm.patch.spans = spans < CREASE_PATCH_SPANS ? spans : CREASE_PATCH_SPANS;
     run->trials++;
     return crease_fit_choose(fitter, both, vague ? CREASE_RULE_AKAIKE : CREASE_RULE_BAYES,
-               crease_fit_level_for(both->count), &warm, INFINITY) &&
-        is_close(run, pair, &fitter->best) && (vague || is_shorter(run, pair, &fitter->best));
+               crease_fit_level_for(both->count), &warm, apart) &&
+        is_close(run, pair, &fitter->best) &&
+        parameters_of(pair, &fitter->best) + misfit_of_all(run, pair, &fitter->best) < apart;
 }
 
 /* The same with few spans, for two vague regions. */
@@ -257,20 +193,26 @@ static bool fit_simply(struct uniting *run)
         fitter->best.chi < 1.0 + 3.0 * sqrt(2.0 / (double)both->count);
 }
 
+static bool is_rich(const struct uniting *run, size_t region)
+{
+    return crease_region_is_rich(run->seg, run->rough, region);
+}
+
 static bool try_pair(struct uniting *run, struct pair *pair)
 {
     const crease_segmentation *const seg = run->seg;
-    const bool vague =
-        run->wide || (is_vague(seg, pair->regions[0]) && is_vague(seg, pair->regions[1]));
-    const int spans[2] = {
-        spans_of(&seg->models[pair->regions[0]]), spans_of(&seg->models[pair->regions[1]])};
+    const size_t a = pair->regions[0], b = pair->regions[1];
+    const bool vague = run->wide || (is_vague(run, a) && is_vague(run, b));
+    const bool rich = run->wide || (vague && (is_rich(run, a) || is_rich(run, b)));
+    const int spans[2] = {spans_of(&seg->models[a]), spans_of(&seg->models[b])};
     const int more = spans[0] > spans[1] ? spans[0] : spans[1];
     for (int i = 0; i < 2; i++)
         pair->sizes[i] = crease_segmentation_size(seg, pair->regions[i]);
     take_sample(run, pair);
     return (vague && !run->wide && fit_simply(run)) ||
-        fit_both(run, pair, more + MORE_SPANS, vague) ||
-        fit_both(run, pair, spans[0] + spans[1] + MORE_SPANS, vague);
+        fit_both(run, pair, more + MORE_SPANS, rich) ||
+        ((is_rich(run, a) || is_rich(run, b)) &&
+            fit_both(run, pair, spans[0] + spans[1] + MORE_SPANS, rich));
 }
 
 /* ----------------------------------------------------------------------------------- joining -- */
@@ -292,22 +234,22 @@ static crease_status join(struct uniting *run, size_t a, size_t b)
                 seg->models[r].tangent_count = 0;
     for (size_t m = seg->first[b]; m < seg->first[b + 1]; m++)
         seg->labels[seg->members[m]] = (int32_t)a;
-    count_links(run, (int32_t)b);
-    count_links(run, (int32_t)a);
+    crease_borders_count(&run->borders, (int32_t)b);
+    crease_borders_count(&run->borders, (int32_t)a);
     return crease_segmentation_list(seg);
 }
 
 static crease_status unite_all(struct uniting *run, size_t *united)
 {
-    crease_status status = CREASE_OK;
-    count_links(run, CREASE_NO_LABEL);
+    crease_status status = crease_vague_find_rough(run->seg, &run->rough);
+    crease_borders_count(&run->borders, CREASE_NO_LABEL);
     while (status == CREASE_OK && run->trials < MOST_TRIALS) {
-        struct border *const border = next_border(run);
+        const size_t count = run->borders.count;
+        crease_border *const border = next_border(run);
         if (!border)
             break;
-        const size_t number = (size_t)(border - run->borders);
-        struct pair pair = {
-            .regions = {number / run->count, number % run->count}, .border = border};
+        const size_t number = (size_t)(border - run->borders.items);
+        struct pair pair = {.regions = {number / count, number % count}, .border = border};
         border->tried = true;
         if (!try_pair(run, &pair))
             continue;
@@ -319,15 +261,16 @@ static crease_status unite_all(struct uniting *run, size_t *united)
 
 crease_status crease_unite(crease_segmentation *seg, bool wide, size_t *united)
 {
-    struct uniting run = {.seg = seg, .wide = wide, .count = seg->region_count};
+    struct uniting run = {.seg = seg, .wide = wide};
     *united = 0;
-    if (run.count < 2 || run.count > MOST_REGIONS)
+    if (seg->region_count < 2 || seg->region_count > MOST_REGIONS)
         return CREASE_OK;
-    run.borders = crease_allocate(seg->context, run.count * run.count, sizeof *run.borders);
-    crease_status status = run.borders ? crease_segmentation_list(seg) : CREASE_ERROR_NO_MEMORY;
+    crease_status status = crease_borders_make(seg, &run.borders);
+    if (status == CREASE_OK)
+        status = crease_segmentation_list(seg);
     if (status == CREASE_OK)
         status = unite_all(&run, united);
-    free(run.borders);
+    crease_borders_clear(&run.borders);
     if (status == CREASE_OK)
         crease_segmentation_compact(seg);
     return status;

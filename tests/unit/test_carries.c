@@ -18,19 +18,22 @@ typedef struct scene {
     crease_sheet *sheet;
 } scene;
 
-/* One random point in each cell of a grid over the unit square, under a height. */
+/* One random point in each cell of a grid over the unit square, under a height; none where that is
+ * infinite. */
 static scene given_heights(double (*height)(double x, double y), double noise)
 {
     scene s = {.context = given_context_with_threads(2)};
     double(*const points)[3] = calloc((size_t)SIDE * SIDE, sizeof *points);
+    size_t count = 0;
     assert_non_null(points);
     for (uint64_t i = 0; i < (uint64_t)SIDE * SIDE; i++) {
         const double x = ((double)(i / SIDE) + crease_random_uniform(3, 1, i)) / SIDE;
         const double y = ((double)(i % SIDE) + crease_random_uniform(3, 2, i)) / SIDE;
         const double z = height(x, y) + noise * crease_random_normal(3, 3, i);
-        memcpy(points[i], (double[]){x, y, z}, sizeof points[i]);
+        if (isfinite(z))
+            memcpy(points[count++], (double[]){x, y, z}, sizeof points[0]);
     }
-    s.cloud = given_cloud_of(s.context, points[0], (size_t)SIDE * SIDE);
+    s.cloud = given_cloud_of(s.context, points[0], count);
     free(points);
     return s;
 }
@@ -115,6 +118,59 @@ static void given_planes_then_uniting_changes_nothing(void **state)
     free_scene(&s);
 }
 
+/* A cylinder without the points of a band wider than nearest neighbours reach across. */
+static double arch_with_a_gap(double x, double y)
+{
+    return fabs(y - 0.4) < 1.3 / SIDE ? INFINITY : sqrt(1.0 - (x - 0.5) * (x - 0.5));
+}
+
+static void given_a_gap_in_the_points_then_one_region_on_both_sides(void **state)
+{
+    (void)state;
+    for (int noisy = 0; noisy < 2; noisy++) {
+        scene s = given_heights(arch_with_a_gap, 0.003 * noisy);
+        assert_int_equal(when_divided(&s, false), 1);
+        assert_int_equal(crease_regions_at(s.regions, 0).type, CREASE_REGION_CYLINDER);
+        free_scene(&s);
+    }
+}
+
+/* A plane with a ridge across it. */
+static double ridge(double x, double y)
+{
+    (void)x;
+    return fmax(0.0, 0.1 - fabs(y - 0.5));
+}
+
+static void given_a_ridge_then_the_plane_on_either_side_is_a_region(void **state)
+{
+    (void)state;
+    for (int noisy = 0; noisy < 2; noisy++) {
+        scene s = given_heights(ridge, 0.003 * noisy);
+        assert_int_equal(when_divided(&s, false), 4);
+        free_scene(&s);
+    }
+}
+
+/* A plane and, at an angle to it, a surface that winds ever more: primitives fit it nearly where it
+ * hardly does. */
+static double plane_and_twist(double x, double y)
+{
+    return fmax(0.0, x - 0.55) * (1.0 + 0.6 * pow(y, 8.0));
+}
+
+static void given_an_exact_plane_then_what_fits_nearly_is_no_plane(void **state)
+{
+    (void)state;
+    scene s = given_heights(plane_and_twist, 0.0);
+    assert_int_equal(when_divided(&s, false), 2);
+    size_t forms = 0;
+    for (size_t i = 0; i < 2; i++)
+        forms += crease_regions_at(s.regions, i).type == CREASE_REGION_FREEFORM;
+    assert_int_equal(forms, 1);
+    free_scene(&s);
+}
+
 static void given_a_roof_then_the_sheet_carries_its_crease(void **state)
 {
     (void)state;
@@ -145,6 +201,9 @@ int main(void)
         cmocka_unit_test(given_waves_then_one_region_when_united),
         cmocka_unit_test(given_a_crease_then_two_regions_even_when_united),
         cmocka_unit_test(given_planes_then_uniting_changes_nothing),
+        cmocka_unit_test(given_a_gap_in_the_points_then_one_region_on_both_sides),
+        cmocka_unit_test(given_a_ridge_then_the_plane_on_either_side_is_a_region),
+        cmocka_unit_test(given_an_exact_plane_then_what_fits_nearly_is_no_plane),
         cmocka_unit_test(given_a_roof_then_the_sheet_carries_its_crease),
         cmocka_unit_test(given_creases_that_meet_inside_then_no_sheet_carries_them),
         cmocka_unit_test(given_no_crease_then_any_sheet_will_do),

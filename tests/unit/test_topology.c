@@ -431,6 +431,43 @@ static void given_face_in_two_pieces_when_found_then_the_points_say_where_it_par
     end_world(&w);
 }
 
+/* Pieces on the top of a box one beside the other, each with its plane: one at either end, one
+ * below and one or two above between them. */
+static void split_top_in_a_row(given_body *box, given_points *points, int pieces)
+{
+    for (int i = 1; i < pieces; i++)
+        given_add(box, box->models[5]);
+    for (size_t i = 0; i < points->count; i++) {
+        const double *const p = points->points + 3 * i;
+        if (points->labels[i] != 5)
+            continue;
+        if (fabs(p[0]) > 0.4 + 0.3 * fabs(p[1]))
+            points->labels[i] = p[0] < 0 ? 6 : 7;
+        else if (p[1] > 0)
+            points->labels[i] = pieces == 5 && p[0] > 0 ? 9 : 8;
+    }
+}
+
+static void given_face_in_four_or_five_pieces_when_found_then_edges_join_their_corners(void **state)
+{
+    for (int pieces = 4; pieces <= 5; pieces++) {
+        given_body box = given_box(1, 0.6, 0.5);
+        given_points points = given_sample(&box, S, 0, 5);
+        split_top_in_a_row(&box, &points, pieces);
+        world w = world_of_points(&box, points, S, 0);
+        check_counts(w.topology, pieces == 4 ? 14 : 16, pieces == 4 ? 21 : 24, 5 + (size_t)pieces);
+        for (int side = -1; side <= 1; side++) {
+            const double corner[3] = {0.4 * side, 0, 0.5};
+            double least = INFINITY;
+            for (size_t v = 0; v < w.topology->vertex_count; v++)
+                least = fmin(least, crease_vector_distance(w.topology->vertices[v].place, corner));
+            assert_true(least < 2 * S || (side == 0 && pieces == 4));
+        }
+        check_points(&w, 1e-9);
+        end_world(&w);
+    }
+}
+
 static void given_face_in_three_pieces_when_found_then_they_meet_in_a_vertex(void **state)
 {
     given_body box = given_box(1, 0.6, 0.5);
@@ -721,6 +758,8 @@ int main(void)
         cmocka_unit_test(given_face_in_two_pieces_when_found_then_the_points_say_where_it_parts),
         cmocka_unit_test(given_fillet_tangent_by_construction_when_found_then_it_stays_as_it_is),
         cmocka_unit_test(given_face_in_three_pieces_when_found_then_they_meet_in_a_vertex),
+        cmocka_unit_test(
+            given_face_in_four_or_five_pieces_when_found_then_edges_join_their_corners),
         cmocka_unit_test(given_pieces_around_a_hole_when_found_then_they_meet_in_it),
         cmocka_unit_test(given_corner_without_points_when_found_then_it_is_where_edges_meet),
         cmocka_unit_test(given_edge_without_points_when_found_then_it_is_bridged),
