@@ -165,6 +165,21 @@ static double cost_apart(const struct uniting *run, const struct pair *pair)
     return cost;
 }
 
+/* Whether the surface may take the place of a plane and another primitive: bends of sheet metal and
+ * fillets, and the planes that they lead to, are no piece of a free form however well one fits. */
+static bool keeps_planes(
+    const struct uniting *run, const struct pair *pair, const crease_model *model)
+{
+    bool plane = false;
+    for (int i = 0; i < 2; i++) {
+        if (crease_region_is_form(run->seg, pair->regions[i]))
+            return true;
+        plane = plane || run->seg->models[pair->regions[i]].type == CREASE_REGION_PLANE;
+    }
+    return !plane || model->type != CREASE_REGION_FREEFORM ||
+        (!model->patch.spline && model->patch.degree == 2);
+}
+
 /* Fits one surface to both, free forms with about so many spans; false when it will not do: it is
  * not as close, or, unless they are vague, does not make the description shorter. */
 static bool fit_both(struct uniting *run, const struct pair *pair, int spans, bool vague)
@@ -178,7 +193,7 @@ static bool fit_both(struct uniting *run, const struct pair *pair, int spans, bo
     run->trials++;
     return crease_fit_choose(fitter, both, vague ? CREASE_RULE_AKAIKE : CREASE_RULE_BAYES,
                crease_fit_level_for(both->count), &warm, apart) &&
-        is_close(run, pair, &fitter->best) &&
+        is_close(run, pair, &fitter->best) && (vague || keeps_planes(run, pair, &fitter->best)) &&
         parameters_of(pair, &fitter->best) + misfit_of_all(run, pair, &fitter->best) < apart;
 }
 
