@@ -54,6 +54,20 @@ static crease_status close_gaps(crease_graph *graph, const crease_links *links, 
     return status == CREASE_OK ? crease_seams_relax(graph) : status;
 }
 
+/* Smooth edges from the vertices that creases lead to; then from those where only such edges meet.
+ */
+static crease_status find_seams(crease_graph *graph, const crease_links *links)
+{
+    crease_confluences confluences = {.count = 0};
+    crease_status status = crease_seams_find(graph, links, NULL);
+    if (status == CREASE_OK)
+        status = crease_confluences_find(graph, links, &confluences);
+    if (status == CREASE_OK && confluences.count > 0)
+        status = crease_seams_find(graph, links, &confluences);
+    crease_confluences_clear(&confluences);
+    return status;
+}
+
 static crease_status make_edges(crease_graph *graph, crease_chains *chains, bool bordered)
 {
     crease_junctions corners = {.count = 0};
@@ -74,7 +88,7 @@ static crease_status make_edges(crease_graph *graph, crease_chains *chains, bool
         status = crease_ends_meet(graph);
     if (status == CREASE_OK) {
         crease_ends_prune(graph);
-        status = crease_seams_find(graph, &links);
+        status = find_seams(graph, &links);
     }
     if (status == CREASE_OK)
         status = close_gaps(graph, &links, bordered);

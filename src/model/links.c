@@ -185,3 +185,21 @@ size_t crease_loose_direction(const crease_loose *loose, const double place[3], 
     memcpy(direction, axes + 6, 3 * sizeof *direction);
     return count;
 }
+
+bool crease_loose_nearest(
+    const crease_loose *loose, const double place[3], double within, double *away, double out[3])
+{
+    uint32_t found[MOST_AROUND];
+    size_t count = 0;
+    crease_tree_within(loose->tree, place, within, MOST_AROUND, found, &count);
+    *away = within;
+    for (size_t i = 0; i < count && i < MOST_AROUND; i++) {
+        const double *const at = loose->places + 3 * (size_t)found[i];
+        const double distance = crease_vector_distance(at, place);
+        if (distance <= *away) {
+            *away = distance;
+            memcpy(out, at, 3 * sizeof *out);
+        }
+    }
+    return count > 0;
+}

@@ -44,5 +44,8 @@ void crease_loose_clear(crease_loose *loose);
 /* The main direction of those within a distance of a place, their number and mean. */
 size_t crease_loose_direction(const crease_loose *loose, const double place[3], double distance,
     double mean[3], double direction[3]);
+/* The nearest link to a place and its distance. False when none is within a distance. */
+bool crease_loose_nearest(
+    const crease_loose *loose, const double place[3], double within, double *away, double out[3]);
 
 #endif

@@ -46,6 +46,7 @@ struct seam {
     crease_graph *graph;
     const crease_loose *loose;
     const crease_model *models[2];
+    const crease_confluences *confluences; /* NULL: none */
 };
 
 /* -------------------------------------------------------------------------------- places -- */
@@ -95,12 +96,17 @@ struct march {
 
 static bool is_odd_for_both(const struct seam *seam, int32_t vertex)
 {
+    const crease_confluence *const confluence = crease_confluence_at(seam->confluences, vertex);
+    if (confluence)
+        return crease_confluence_awaits(seam->graph, confluence, seam->loose->regions);
     return crease_graph_odd(seam->graph, vertex, seam->loose->regions[0]) &&
         crease_graph_odd(seam->graph, vertex, seam->loose->regions[1]);
 }
 
 static bool is_odd_for_one(const struct seam *seam, int32_t vertex)
 {
+    if (crease_confluence_at(seam->confluences, vertex))
+        return is_odd_for_both(seam, vertex);
     return crease_graph_odd(seam->graph, vertex, seam->loose->regions[0]) ||
         crease_graph_odd(seam->graph, vertex, seam->loose->regions[1]);
 }
@@ -326,7 +332,8 @@ static crease_status seams_of(struct seam *seam)
     return status == CREASE_OK ? crease_ring_mend(seam->graph, seam->loose, before) : status;
 }
 
-crease_status crease_seams_find(crease_graph *graph, const crease_links *links)
+crease_status crease_seams_find(
+    crease_graph *graph, const crease_links *links, const crease_confluences *confluences)
 {
     const crease_model *const models = graph->survey->regions->models;
     crease_status status = CREASE_OK;
@@ -337,7 +344,7 @@ crease_status crease_seams_find(crease_graph *graph, const crease_links *links)
             if (end - begin >= LEAST_LINKS)
                 status = crease_loose_find(graph, links, begin, end, &loose);
             struct seam seam = {
-                graph, &loose, {&models[loose.regions[0]], &models[loose.regions[1]]}};
+                graph, &loose, {&models[loose.regions[0]], &models[loose.regions[1]]}, confluences};
             if (status == CREASE_OK && loose.count >= LEAST_LINKS)
                 status = seams_of(&seam);
             crease_loose_clear(&loose);

@@ -6,14 +6,16 @@
 #ifndef CREASE_MODEL_SEAM_H
 #define CREASE_MODEL_SEAM_H
 
-#include "model/links.h"
+#include "model/confluence.h"
 
 /* Moves the vertices where a crease passes from one of two smoothly joined regions to the other:
  * onto the line where these touch. What three surfaces have in common there is badly determined
  * along the crease. */
 crease_status crease_seams_relocate(crease_graph *graph, const crease_links *links);
 /* Adds the smooth edges that the loose links show: from vertex to vertex along the line of contact,
- * or all the way round. */
-crease_status crease_seams_find(crease_graph *graph, const crease_links *links);
+ * or all the way round. Those of the confluences, NULL when there are none, are vertices as well.
+ */
+crease_status crease_seams_find(
+    crease_graph *graph, const crease_links *links, const crease_confluences *confluences);
 
 #endif

@@ -11,7 +11,7 @@
 #include "base/vector.h"
 #include "segment/region.h"
 
-enum { MOST_FACES = 16 };
+enum { MOST_FACES = 32 };
 
 /* An orthonormal frame whose last axis is the direction. */
 static inline void given_axes(const double direction[3], double axes[9])
