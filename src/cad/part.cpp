@@ -1,32 +1,13 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* Parts: the ways of building one are tried in turn until one gives a solid that the points lie on;
- * failing that, the best of what came out is taken. */
-#include "cad/apart.hpp"
-#include "cad/effort.hpp"
+/* Parts: what came out best of the search, and its description. */
 #include "cad/format.hpp"
-#include "cad/judge.hpp"
 #include "cad/kernel.hpp"
-#include "cad/ways.hpp"
-#include "segment/coarser.h"
+#include "cad/search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
-#include <optional>
-
-namespace crease_cad
-{
-
-struct RegionsFree {
-    void operator()(crease_regions *regions) const
-    {
-        crease_regions_free(regions);
-    }
-};
-
-} // namespace crease_cad
 
 struct crease_part {
     ~crease_part();
@@ -48,135 +29,6 @@ crease_part::~crease_part()
 
 namespace crease_cad
 {
-
-/* Seconds of the processor after which an attempt hangs; work is limited by Effort. */
-static constexpr unsigned HUNG = 30;
-static constexpr double GOOD_LOSS = 0.04; /* of a result: no other way is tried */
-
-/* A way with its margin: the larger of a part of the diagonal and some spacings. */
-struct Step {
-    Way way;
-    double diagonals, spacings;
-    bool for_solid;
-    bool for_open; /* it is tried when the points end at a border */
-    bool coarser;  /* with regions united that join smoothly; tried when nothing closed before */
-};
-
-static constexpr Step steps[] = {
-    {follow_topology, 0.0, 0.0, true, true, false},
-    {follow_topology, 0.0, 0.0, true, false, true},
-    {arrange_solid, 0.03, 1.8, true, false, false},
-    {arrange_solid, 0.06, 3.6, true, false, false},
-    {arrange_solid, 0.12, 7.2, true, false, false},
-    {arrange_solid, 0.3, 18.0, true, false, false},
-    {arrange_shells, 0.03, 3.0, false, true, false},
-    {lay_out_faces, 0.0, 0.0, false, true, false},
-};
-
-/* The search for the best outcome. */
-struct Search {
-    crease_context *context;
-    const crease_cloud *cloud;
-    const Job &given;
-    bool as_bsplines;
-    std::unique_ptr<crease_regions, RegionsFree> coarser_regions;
-    std::unique_ptr<const Job> coarser; /* with these */
-    const Job *job;                     /* of the best */
-    std::optional<Judged> best;
-    std::string why_no_solid;
-    bool spent; /* an arrangement was too much work; with a larger margin it is even more */
-};
-
-static constexpr const char *HANGS = "OpenCASCADE takes too long to intersect the surfaces";
-static constexpr Bounds bounds = {
-    HUNG, HANGS, "OpenCASCADE broke down over the surfaces", "cancelled before it was built"};
-
-/* What a failed attempt means for the search: cancelling and lack of memory end it. */
-static void note(Search &search, const Failure &failure)
-{
-    if (failure.status == CREASE_ERROR_CANCELLED || failure.status == CREASE_ERROR_NO_MEMORY)
-        throw failure;
-    search.spent = search.spent || failure.sentence == TOO_MUCH_WORK || failure.sentence == HANGS;
-    if (search.why_no_solid.empty())
-        search.why_no_solid = failure.sentence;
-}
-
-static std::string why_not(const Judged &judged)
-{
-    const Summary &summary = judged.outcome.summary;
-    if (!summary.closed)
-        return "the faces do not close";
-    if (!summary.valid)
-        return "OpenCASCADE finds fault with the closed shell";
-    return "the closed shell leaves points or bears faces without points";
-}
-
-/* Null when the given regions are no finer. */
-static const Job *coarser_job(Search &search)
-{
-    if (search.coarser)
-        return search.coarser.get();
-    crease_regions *found = nullptr;
-    require(
-        crease_regions_find_coarser(search.context, search.cloud, search.given.regions, &found));
-    search.coarser_regions.reset(found);
-    if (found && crease_regions_count(found) < crease_regions_count(search.given.regions))
-        search.coarser = std::make_unique<const Job>(
-            search.context, search.cloud, found, nullptr, search.given.bordered);
-    return search.coarser.get();
-}
-
-static void attempt(Search &search, const Step &step, const Job &job)
-{
-    const double margin = std::max(step.diagonals * job.diagonal, step.spacings * job.spacing);
-    std::vector<char> bytes;
-    try {
-        bytes = run_apart(
-            [&] { return pack(measure(job, step.way(job, margin), search.as_bsplines)); }, bounds);
-    } catch (const Failure &failure) {
-        note(search, failure);
-        return;
-    }
-    Judged judged = judge(search.context, search.cloud, job, unpack(bytes));
-    if (step.for_solid && !is_true_solid(judged) && search.why_no_solid.empty())
-        search.why_no_solid = why_not(judged);
-    if (!search.best || is_better(judged, *search.best)) {
-        search.best = std::move(judged);
-        search.job = &job;
-    }
-}
-
-static bool is_enough(const Search &search, const Step &next)
-{
-    if (search.best && search.given.bordered)
-        return search.best->state == CREASE_PART_SHELL && search.best->loss < GOOD_LOSS;
-    if (!search.best || !is_true_solid(*search.best))
-        return false;
-    return !next.for_solid || (search.best->loss < GOOD_LOSS && search.best->lost == 0);
-}
-
-static void search_best(Search &search)
-{
-    for (const Step &step : steps) {
-        if (is_enough(search, step))
-            break;
-        if (search.given.bordered && !step.for_open)
-            continue;
-        if (search.spent && step.way == arrange_solid)
-            continue;
-        if (step.coarser && search.best && is_true_solid(*search.best))
-            continue;
-        if (!step.for_solid && search.best && search.best->state == CREASE_PART_SHELL &&
-            search.best->loss < GOOD_LOSS)
-            break;
-        if (const Job *const job = step.coarser ? coarser_job(search) : &search.given)
-            attempt(search, step, *job);
-    }
-    if (!search.best)
-        throw Failure{CREASE_ERROR_NUMERIC, search.why_no_solid};
-}
-
-/* ---------------------------------------------------------------------------------- the part -- */
 
 static std::string free_edges_of(const Outcome &outcome)
 {
@@ -275,8 +127,8 @@ crease_status crease_part_build(crease_context *context, const crease_cloud *clo
     return guard(context, "part", [&] {
         check(cloud, regions);
         const Job job(context, cloud, regions, network, options && options->open);
-        Search search = {
-            context, cloud, job, options && options->bspline_faces, {}, {}, nullptr, {}, "", false};
+        Search search = {context, cloud, job, options && options->bspline_faces, {}, {}, nullptr,
+            {}, "", false, false, 0.0};
         search_best(search);
         *out = part_of(search).release();
     });

@@ -4,6 +4,7 @@
 #include "cad/ways.hpp"
 
 #include "cad/arrangement.hpp"
+#include "cad/brep.hpp"
 #include "cad/closing.hpp"
 #include "cad/rounding.hpp"
 
@@ -101,6 +102,34 @@ Attempt arrange_shells(const Job &job, double margin)
     if (faces.empty())
         return {{}, "no face is supported by points"};
     return {shells_of(faces), ""};
+}
+
+/* The topology's faces where they close, and the regions that have one. */
+static TopoDS_Shape closed_faces(const Job &job, std::vector<bool> &have)
+{
+    const crease_topology &topology = job.topology();
+    const Brep brep = brep_of(topology, job.inwards());
+    have.assign(topology.region_count, false);
+    for (size_t i = 0; i < topology.face_count && !brep.shape.IsNull(); i++)
+        have[topology.faces[i].region] = true;
+    for (const uint32_t region : brep.failed)
+        have[region] = false;
+    return brep.shape;
+}
+
+Attempt lay_out_rest(const Job &job, double margin)
+{
+    BRep_Builder builder;
+    TopoDS_Compound compound;
+    std::vector<bool> have;
+    builder.MakeCompound(compound);
+    for (TopExp_Explorer it(closed_faces(job, have), TopAbs_FACE); it.More(); it.Next())
+        builder.Add(compound, it.Current());
+    for (const Carrier &carrier : job.carriers)
+        if (!carrier.points.empty() && !have[carrier.region])
+            if (const TopoDS_Face face = extend(job, carrier, margin).face; !face.IsNull())
+                builder.Add(compound, face);
+    return {compound, ""};
 }
 
 Attempt lay_out_faces(const Job &job, double margin)

@@ -21,6 +21,10 @@ Attempt arrange_solid(const Job &job, double margin);
 /* Shells: the pieces of the same faces that the points support, sharing their edges. */
 Attempt arrange_shells(const Job &job, double margin);
 
+/* The faces that the topology closes, which share edges; of the other carriers those as far as
+ * their points go, sharing nothing. */
+Attempt lay_out_rest(const Job &job, double margin);
+
 /* The carriers' faces as far as their points go, sharing nothing. */
 Attempt lay_out_faces(const Job &job, double margin);
 
