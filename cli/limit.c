@@ -37,9 +37,8 @@ static crease_status refuse(
     crease_context *context, const settings *s, const char *path, double bytes)
 {
     return crease_context_fail(context, CREASE_ERROR_NO_MEMORY,
-        "%s: takes about %.3g GB, more than --memory allows (%.3g GB); give more, or a binary PLY "
-        "or "
-        "LAS file, which is read in parts",
+        "%s: takes about %.3g GB, more than --memory allows (%.3g GB); give more, or a PLY, LAS, "
+        "XYZ or CSV file, which is read in parts",
         path, (bytes + (double)PROGRAM) / 1e9, (double)s->memory / 1e9);
 }
 

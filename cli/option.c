@@ -133,10 +133,9 @@ const option option_table[] = {
         "broken off goes on after its last finished stage, with the same result",
         "nothing is kept"},
     {"memory", 0, OPTION_SIZE, "SIZE", FOR_DETECT | FOR_FIT, AT(memory), 50e6, 1e18, NULL,
-        "take no more memory than this: bytes, such as 500M or 2G. A binary PLY or LAS file whose "
-        "points do not fit: `detect` goes from file to file, part by part, with regions and "
-        "creases "
-        "from a sample; `fit` takes a sample",
+        "take no more memory than this: bytes, such as 500M or 2G. A PLY, LAS, XYZ or CSV file "
+        "whose points do not fit: `detect` goes from file to file, part by part, with regions "
+        "and creases from a sample; `fit` takes a sample",
         "no limit"},
     {"scratch", 0, OPTION_PATH, "FOLDER", FOR_DETECT, AT(scratch), 0, 0, NULL,
         "with --memory: where files of 56 bytes for each point are kept meanwhile",

@@ -5,8 +5,8 @@
  * Clouds larger than memory, from file to file. Part of libcrease; the manners are those of
  * crease.h.
  *
- * Files that can be read in parts are binary PLY files that begin with their points, without lists,
- * and LAS files.
+ * Files that can be read in parts are PLY files that begin with their points, without lists where
+ * they are binary, LAS files, and rows of text (XYZ, TXT, CSV, ASC, PTS).
  */
 #ifndef CREASE_CREASE_STREAM_H
 #define CREASE_CREASE_STREAM_H

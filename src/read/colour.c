@@ -28,13 +28,27 @@ static bool are_bytes(const double *values, size_t count)
     return true;
 }
 
-crease_status crease_colours_narrow(crease_context *context, crease_columns *columns)
+bool crease_colours_named(const crease_columns *columns)
+{
+    for (size_t i = 0; i < columns->count; i++)
+        if (columns->items[i].role == CREASE_ROLE_FIELD && is_colour(&columns->items[i]))
+            return true;
+    return false;
+}
+
+crease_status crease_colours_narrow(
+    crease_context *context, crease_columns *columns, crease_survey *survey)
 {
     for (size_t i = 0; i < columns->count; i++) {
         crease_column *column = &columns->items[i];
         const double *values = (const void *)column->values;
-        if (column->role != CREASE_ROLE_FIELD || !is_colour(column) ||
-            !are_bytes(values, columns->rows))
+        if (column->role != CREASE_ROLE_FIELD || !is_colour(column))
+            continue;
+        const bool narrow =
+            survey && survey->made ? survey->bytes[i] : are_bytes(values, columns->rows);
+        if (survey)
+            survey->bytes[i] = survey->bytes[i] && narrow;
+        if (!narrow)
             continue;
         uint8_t *bytes = crease_allocate(context, columns->rows, 1);
         if (!bytes)

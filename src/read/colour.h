@@ -7,8 +7,12 @@
 
 #include "read/columns.h"
 
-/* Doubles named as colours become bytes where all of them are whole numbers 0..255. */
-crease_status crease_colours_narrow(crease_context *context, crease_columns *columns);
+/* Doubles named as colours become bytes where all of them are whole numbers 0..255. survey: of the
+ * whole file, when these are some of its rows, or NULL. */
+crease_status crease_colours_narrow(
+    crease_context *context, crease_columns *columns, crease_survey *survey);
+/* Whether there are columns that are named as colours. */
+bool crease_colours_named(const crease_columns *columns);
 /* Splits `rgb` or `rgba`, 4 bytes of whatever type, into red, green, blue and alpha, unless fields
  * of those names are there already. */
 crease_status crease_colours_unpack(crease_context *context, crease_columns *columns);

@@ -6,6 +6,7 @@
 #ifndef CREASE_READ_FORMATS_H
 #define CREASE_READ_FORMATS_H
 
+#include "read/lines.h"
 #include "read/source.h"
 
 typedef crease_status crease_reader(crease_context *context, const crease_source *source,
@@ -19,17 +20,25 @@ crease_reader crease_stl_read;
 crease_reader crease_off_read;
 crease_reader crease_las_read;
 
-/* Where the points of a file are, when they are rows of equal size behind a header. */
+/* Where the points of a file are, when they are rows of equal size, or lines, behind a header. */
 typedef struct crease_layout {
-    uint64_t count;    /* of the points */
-    size_t size;       /* bytes of each */
-    size_t first;      /* byte of the first one: the header is before */
-    size_t numeral[2]; /* PLY: bytes of the header where the count begins and ends */
-    bool alone;        /* nothing follows the points */
+    bool counted;            /* the header has the number of points */
+    uint64_t count;          /* that number */
+    size_t size;             /* bytes of each */
+    size_t first;            /* byte of the first one: the header is before */
+    size_t numeral[2];       /* PLY: bytes of the header where the count begins and ends */
+    bool alone;              /* nothing follows the points */
+    crease_row_test *is_row; /* of text; NULL: binary */
+    size_t lead;             /* text: bytes that are put before some of its rows */
+    size_t line;             /* text: number of the line of byte `first` */
+    size_t columns;          /* text */
+    bool asks;               /* text: only all rows tell what the columns are */
 } crease_layout;
 
 /* From a source that holds the header at least. Errors: FORMAT, TRUNCATED, UNSUPPORTED. */
 crease_status crease_ply_layout(
+    crease_context *context, const crease_source *head, crease_layout *out);
+crease_status crease_xyz_layout(
     crease_context *context, const crease_source *head, crease_layout *out);
 crease_status crease_las_layout(
     crease_context *context, const crease_source *head, crease_layout *out);

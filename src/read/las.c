@@ -204,7 +204,8 @@ crease_status crease_las_layout(
     las file = {.context = context, .source = head};
     const crease_status status = read_header(&file);
     if (status == CREASE_OK)
-        *out = (crease_layout){.count = file.count, .size = file.record, .first = file.begin};
+        *out = (crease_layout){
+            .counted = true, .count = file.count, .size = file.record, .first = file.begin};
     return status;
 }
 

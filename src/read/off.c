@@ -178,7 +178,7 @@ static crease_status read_table(off *file, crease_table *table, crease_cloud **o
     if (status == CREASE_OK)
         status = crease_table_fill(file->context, file->source, table, &file->columns);
     if (status == CREASE_OK)
-        status = crease_colours_narrow(file->context, &file->columns);
+        status = crease_colours_narrow(file->context, &file->columns, NULL);
     if (status != CREASE_OK)
         return status;
     return crease_columns_finish(

@@ -238,7 +238,7 @@ static crease_status read_ascii(ply *file, element *vertices, crease_cloud **out
         return status;
     crease_table table = {.begin = file->cursor.at,
         .end = file->cursor.end,
-        .first_line = file->cursor.line + 1,
+        .first_line = file->source->line ? file->source->line : file->cursor.line + 1,
         .data = crease_table_data,
         .separator = ' '};
     status = crease_table_count(file->context, &table);
@@ -450,15 +450,23 @@ static crease_status find_layout(ply *file, crease_layout *out)
     const element *const first = &file->elements[0];
     const bool vertices = file->element_count > 0 && crease_span_is(first->name, "vertex");
     const size_t size = vertices ? least_size(first, &lists) : 0;
-    if (!vertices || lists || size == 0 || file->coding == CODING_ASCII)
+    const bool text = file->coding == CODING_ASCII;
+    if (!vertices || (lists && !text) || size == 0)
         return crease_fail(file->context, CREASE_ERROR_UNSUPPORTED,
-            "%s: only a binary PLY file that begins with its points, without lists, can be read in "
-            "parts; write it so on a machine that holds it",
+            "%s: only a PLY file that begins with its points, without lists where it is binary, "
+            "can "
+            "be read in parts; write it so on a machine that holds it",
             file->source->name);
     const char *const begin = file->source->bytes;
-    *out = (crease_layout){.count = first->count,
+    const size_t header = (size_t)(file->cursor.at - begin);
+    *out = (crease_layout){.counted = true,
+        .count = first->count,
         .size = size,
-        .first = (size_t)(file->cursor.at - begin),
+        .first = header,
+        .is_row = text ? crease_table_data : NULL,
+        .lead = header,
+        .line = file->cursor.line + 1,
+        .columns = first->properties.count,
         .numeral = {(size_t)(first->digits.at - begin), (size_t)(first->digits.end - begin)},
         .alone = file->element_count == 1};
     return CREASE_OK;

@@ -2,7 +2,8 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* Some rows are read as a small file of their own: the header, with their number in place of that
- * of all rows, and their bytes. So every reader has to know one form of its format only. */
+ * of all rows, and their bytes. So every reader has to know one form of its format only. Text has
+ * its rows counted first, and read once for what only all of them tell. */
 #include "read/rows.h"
 
 #include "base/memory.h"
@@ -16,7 +17,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { HEAD_ROOM = 1 << 20, DIGITS = 24 };
+enum { HEAD_ROOM = 1 << 20, DIGITS = 24, AT_ONCE = 1 << 14 };
 
 struct crease_rows {
     const char *path;
@@ -25,17 +26,78 @@ struct crease_rows {
     char *head; /* HEAD_ROOM bytes at most */
     size_t head_size, file_size;
     crease_layout layout;
-    bool las;
+    crease_reader *read;
+    crease_lines lines; /* of text */
+    crease_survey survey;
 };
+
+static crease_status fail_count(
+    crease_context *context, const crease_rows *rows, crease_status status, size_t found)
+{
+    return crease_fail(context, status, "%s: its header promises %llu points but %s%zu follow; %s",
+        rows->path, (unsigned long long)rows->layout.count,
+        status == CREASE_ERROR_FORMAT ? "at least " : "", found,
+        status == CREASE_ERROR_FORMAT ? "mend the header" : "get the whole file");
+}
+
+static crease_status fail_many(crease_context *context, const crease_rows *rows)
+{
+    return crease_fail(context, CREASE_ERROR_ARGUMENT,
+        "%s: has %llu points; at most %u fit one cloud, split it", rows->path,
+        (unsigned long long)rows->layout.count, UINT32_MAX);
+}
+
+/* Where the rows of text are, and how many. Their size is that of their text and of what becomes of
+ * it. */
+static crease_status find_lines(crease_context *context, crease_rows *rows)
+{
+    crease_layout *const layout = &rows->layout;
+    if (layout->counted && layout->count > UINT32_MAX)
+        return fail_many(context, rows);
+    const size_t most = layout->counted ? (size_t)layout->count : UINT32_MAX;
+    const crease_status status = crease_lines_find(context, rows->path, rows->file,
+        (crease_mark){layout->first, layout->line}, layout->is_row, most, &rows->lines);
+    if (status != CREASE_OK)
+        return status;
+    if (rows->lines.rows < most && layout->counted)
+        return fail_count(context, rows, CREASE_ERROR_TRUNCATED, rows->lines.rows);
+    if (rows->lines.rows > most && layout->counted && layout->alone)
+        return fail_count(context, rows, CREASE_ERROR_FORMAT, rows->lines.rows);
+    layout->count = layout->counted ? layout->count : rows->lines.rows;
+    if (layout->count > UINT32_MAX)
+        return fail_many(context, rows);
+    const size_t text = layout->count ? (rows->lines.end - layout->first) / layout->count + 1 : 1;
+    layout->size = text + layout->columns * sizeof(double);
+    return CREASE_OK;
+}
+
+/* Reads all rows once for what only all of them tell. */
+static crease_status make_survey(crease_context *context, crease_rows *rows)
+{
+    crease_status status = CREASE_OK;
+    rows->survey.normals = true;
+    rows->survey.bytes = crease_allocate(context, rows->layout.columns, sizeof(bool));
+    if (!rows->survey.bytes)
+        return CREASE_ERROR_NO_MEMORY;
+    memset(rows->survey.bytes, 1, rows->layout.columns * sizeof(bool));
+    for (size_t at = 0; at < rows->layout.count && status == CREASE_OK; at += AT_ONCE) {
+        const size_t left = rows->layout.count - at;
+        crease_cloud *cloud = NULL;
+        status = crease_rows_read(context, rows, at, left < AT_ONCE ? left : AT_ONCE, &cloud);
+        crease_cloud_free(cloud);
+        if (status == CREASE_OK && crease_cancelled(context))
+            status = crease_fail_cancelled(context);
+    }
+    rows->survey.made = true;
+    return status;
+}
 
 static crease_status check_size(crease_context *context, const crease_rows *rows)
 {
     const crease_layout *const layout = &rows->layout;
     const size_t room = rows->file_size > layout->first ? rows->file_size - layout->first : 0;
     if (layout->count > UINT32_MAX)
-        return crease_fail(context, CREASE_ERROR_ARGUMENT,
-            "%s: has %llu points; at most %u fit one cloud, split it", rows->path,
-            (unsigned long long)layout->count, UINT32_MAX);
+        return fail_many(context, rows);
     if (layout->count > room / layout->size)
         return crease_fail(context, CREASE_ERROR_TRUNCATED,
             "%s: byte %zu: ends before the %llu points that its header promises; get the whole "
@@ -66,16 +128,19 @@ static crease_status open_rows(crease_context *context, crease_rows *rows)
         crease_format_find(rows->path, rows->head, rows->head_size, rows->file_size);
     const crease_source head = {
         .name = rows->path, .path = rows->path, .bytes = rows->head, .size = rows->head_size};
-    rows->las = format && format->read == crease_las_read;
+    rows->read = format ? format->read : NULL;
     crease_status status = CREASE_OK;
-    if (rows->las)
+    if (rows->read == crease_las_read)
         status = crease_las_layout(context, &head, &rows->layout);
-    else if (format && format->read == crease_ply_read)
+    else if (rows->read == crease_ply_read)
         status = crease_ply_layout(context, &head, &rows->layout);
+    else if (rows->read == crease_xyz_read)
+        status = crease_xyz_layout(context, &head, &rows->layout);
     else
         status = crease_fail(context, CREASE_ERROR_UNSUPPORTED,
-            "%s: only binary PLY and LAS files can be read in parts; write it as one of these on a "
-            "machine that holds it",
+            "%s: only PLY, LAS and rows of text (XYZ, CSV) can be read in parts; write it as one "
+            "of "
+            "these on a machine that holds it",
             rows->path);
     if (status == CREASE_OK && rows->layout.first > rows->head_size)
         status = crease_fail(context, CREASE_ERROR_UNSUPPORTED,
@@ -83,7 +148,10 @@ static crease_status open_rows(crease_context *context, crease_rows *rows)
             "much "
             "in it",
             rows->path, rows->layout.first);
-    return status == CREASE_OK ? check_size(context, rows) : status;
+    if (status != CREASE_OK || !rows->layout.is_row)
+        return status == CREASE_OK ? check_size(context, rows) : status;
+    status = find_lines(context, rows);
+    return status == CREASE_OK && rows->layout.asks ? make_survey(context, rows) : status;
 }
 
 crease_status crease_rows_open(crease_context *context, const char *path,
@@ -110,6 +178,8 @@ void crease_rows_close(crease_rows *rows)
         return;
     if (rows->file >= 0)
         close(rows->file);
+    crease_lines_free(&rows->lines);
+    free(rows->survey.bytes);
     free(rows->head);
     free(rows);
 }
@@ -124,25 +194,12 @@ size_t crease_rows_size(const crease_rows *rows)
     return rows->layout.size;
 }
 
-static bool read_at(int file, char *to, size_t size, size_t from)
-{
-    while (size > 0) {
-        const ssize_t got = pread(file, to, size, (off_t)from);
-        if (got == 0 || (got < 0 && errno != EINTR))
-            return false;
-        to += got > 0 ? got : 0;
-        from += got > 0 ? (size_t)got : 0;
-        size -= got > 0 ? (size_t)got : 0;
-    }
-    return true;
-}
-
 /* That of a file of so many rows; returns its length. */
 static size_t write_header(const crease_rows *rows, size_t count, char *out)
 {
     const crease_layout *const layout = &rows->layout;
     const size_t before = layout->numeral[0], after = layout->first - layout->numeral[1];
-    if (rows->las) {
+    if (rows->read == crease_las_read) {
         memcpy(out, rows->head, layout->first);
         crease_las_set_count(out, layout, (uint32_t)count);
         return layout->first;
@@ -153,15 +210,56 @@ static size_t write_header(const crease_rows *rows, size_t count, char *out)
     return before + digits + after;
 }
 
-crease_status crease_rows_read(
+/* The header right before the rows, which begin at `lead`; returns where it begins. */
+static size_t put_before(const crease_rows *rows, size_t count, size_t lead, char *bytes)
+{
+    char digits[DIGITS];
+    const crease_layout *const layout = &rows->layout;
+    if (rows->read == crease_ply_read) {
+        const size_t width = (size_t)snprintf(digits, DIGITS, "%zu", count);
+        const size_t begin =
+            lead - layout->first + (layout->numeral[1] - layout->numeral[0]) - width;
+        write_header(rows, count, bytes + begin);
+        return begin;
+    }
+    const bool ended = rows->head[layout->lead - 1] == '\n';
+    const size_t begin = lead - layout->lead - !ended;
+    memcpy(bytes + begin, rows->head, layout->lead);
+    bytes[lead - 1] = '\n';
+    return begin;
+}
+
+static crease_status read_text(
+    crease_context *context, crease_rows *rows, size_t first, size_t count, crease_cloud **out)
+{
+    const size_t lead = rows->layout.lead + DIGITS;
+    char *bytes = NULL;
+    size_t size = 0;
+    crease_source source = {.name = rows->path,
+        .path = rows->path,
+        .rows_before = first,
+        .survey = rows->survey.bytes ? &rows->survey : NULL};
+    crease_status status = crease_lines_read(
+        context, &rows->lines, rows->file, first, count, lead, &bytes, &size, &source.line);
+    if (status == CREASE_OK) {
+        const size_t begin = put_before(rows, count, lead, bytes);
+        source.bytes = bytes + begin;
+        source.size = lead - begin + size;
+        status = rows->read(context, &source, &rows->options, out);
+    }
+    free(bytes);
+    return status;
+}
+
+static crease_status read_binary(
     crease_context *context, crease_rows *rows, size_t first, size_t count, crease_cloud **out)
 {
     const crease_layout *const layout = &rows->layout;
     const size_t size = count * layout->size;
-    *out = NULL;
     char *const bytes = crease_allocate(context, layout->first + DIGITS + size + 1, 1);
     if (!bytes)
         return CREASE_ERROR_NO_MEMORY;
+    size_t got = 0;
     const size_t begin = write_header(rows, count, bytes);
     const size_t from = layout->first + first * layout->size;
     const crease_source source = {.name = rows->path,
@@ -170,10 +268,18 @@ crease_status crease_rows_read(
         .size = begin + size,
         .rows_before = first,
         .bytes_before = from - begin};
-    const crease_status status = read_at(rows->file, bytes + begin, size, from)
-        ? (rows->las ? crease_las_read : crease_ply_read)(context, &source, &rows->options, out)
+    const crease_status status =
+        crease_source_get(rows->file, bytes + begin, size, from, &got) && got == size
+        ? rows->read(context, &source, &rows->options, out)
         : crease_fail(context, CREASE_ERROR_CANNOT_READ,
               "%s: byte %zu: cannot be read; check the file", rows->path, from);
     free(bytes);
     return status;
+}
+
+crease_status crease_rows_read(
+    crease_context *context, crease_rows *rows, size_t first, size_t count, crease_cloud **out)
+{
+    *out = NULL;
+    return (rows->layout.is_row ? read_text : read_binary)(context, rows, first, count, out);
 }

@@ -138,3 +138,19 @@ bool crease_source_peek(
     *file_size = info.st_size > 0 ? (size_t)info.st_size : 0;
     return got >= 0;
 }
+
+bool crease_source_get(int file, char *to, size_t room, size_t from, size_t *size)
+{
+    *size = 0;
+    while (*size < room) {
+        const size_t left = room - *size;
+        const ssize_t got = pread(
+            file, to + *size, left < MOST_AT_ONCE ? left : MOST_AT_ONCE, (off_t)(from + *size));
+        if (got < 0 && errno != EINTR)
+            return false;
+        if (got == 0)
+            break;
+        *size += got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}

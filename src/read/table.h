@@ -8,14 +8,14 @@
 #define CREASE_READ_TABLE_H
 
 #include "read/columns.h"
+#include "read/lines.h"
 
 typedef struct crease_chunk crease_chunk;
 
 typedef struct crease_table {
     const char *begin, *end; /* the lines */
     size_t first_line;       /* number of the first of them in the file */
-    /* The first cell of a line that is a row, or NULL for lines that are none. */
-    const char *(*data)(const char *line, const char *end);
+    crease_row_test *data;
     char separator;       /* between cells; ' ' is any white space */
     bool comma;           /* a decimal comma is allowed */
     size_t rows;          /* found by crease_table_count */

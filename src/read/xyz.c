@@ -27,6 +27,7 @@ typedef struct xyz {
     crease_span comment, header, first; /* candidate lines; at NULL where there is none */
     size_t first_line;                  /* number of the first row's line */
     const char *body;                   /* the first row's line and all behind */
+    const char *rest;                   /* what is behind the first row's line */
     bool counted;                       /* there was a count of points */
     uint64_t promised;                  /* that count */
     char separator;
@@ -149,6 +150,7 @@ static void read_preamble(xyz *file)
             return;
     } while (take_line(file, line));
     file->first = line;
+    file->rest = cursor.at;
 }
 
 /* ----------------------------------------------------------------------------------- columns -- */
@@ -292,11 +294,23 @@ static crease_status make_normals(crease_context *context, crease_columns *colum
     return CREASE_OK;
 }
 
+/* The same, as all rows of the file tell. */
+static bool have_normals(const xyz *file)
+{
+    crease_survey *const survey = file->source->survey;
+    if (survey && survey->made)
+        return survey->normals;
+    const bool plain = !file->named && has_plain_normals(&file->columns);
+    if (survey)
+        survey->normals = survey->normals && plain;
+    return plain;
+}
+
 /* ------------------------------------------------------------------------------------- whole -- */
 
 static crease_status check_count(const xyz *file, size_t rows)
 {
-    if (!file->counted || file->promised == rows)
+    if (!file->counted || file->promised == rows || file->source->line)
         return CREASE_OK;
     return crease_fail(file->context,
         rows < file->promised ? CREASE_ERROR_TRUNCATED : CREASE_ERROR_FORMAT,
@@ -318,10 +332,10 @@ static crease_status read_rows(xyz *file, crease_table *table, crease_cloud **ou
         status = crease_columns_allocate(context, file->source, columns, table->rows);
     if (status == CREASE_OK)
         status = crease_table_fill(context, file->source, table, columns);
-    if (status == CREASE_OK && !file->named && has_plain_normals(columns))
+    if (status == CREASE_OK && have_normals(file))
         status = make_normals(context, columns);
     if (status == CREASE_OK)
-        status = crease_colours_narrow(context, columns);
+        status = crease_colours_narrow(context, columns, file->source->survey);
     if (status != CREASE_OK)
         return status;
     return crease_columns_finish(
@@ -337,27 +351,61 @@ static crease_status check_text(crease_context *context, const crease_source *so
         "%s: byte 0: is text of 16-bit characters; save it as UTF-8 or ASCII", source->name);
 }
 
+/* What is before the rows, and the columns. */
+static crease_status open_file(xyz *file)
+{
+    const crease_status status = check_text(file->context, file->source);
+    if (status != CREASE_OK)
+        return status;
+    read_preamble(file);
+    if (!file->first.at && !file->header.at)
+        return crease_fail(file->context, CREASE_ERROR_FORMAT,
+            "%s: there are no points in it; name another file", file->source->name);
+    return find_columns(file);
+}
+
 crease_status crease_xyz_read(crease_context *context, const crease_source *source,
     const crease_read_options *options, crease_cloud **out)
 {
     xyz file = {.context = context, .source = source, .options = options};
-    crease_status status = check_text(context, source);
-    if (status != CREASE_OK)
-        return status;
-    read_preamble(&file);
-    if (!file.first.at && !file.header.at)
-        return crease_fail(context, CREASE_ERROR_FORMAT,
-            "%s: there are no points in it; name another file", source->name);
-    crease_table table = {.begin = file.body,
+    crease_status status = open_file(&file);
+    /* some of the rows come behind the first one, which tells what the columns are */
+    crease_table table = {.begin = source->line ? file.rest : file.body,
         .end = source->bytes + source->size,
-        .first_line = file.first_line,
-        .data = data_of};
-    status = find_columns(&file);
-    table.separator = file.separator;
-    table.comma = file.separator != ',';
+        .first_line = source->line ? source->line : file.first_line,
+        .data = data_of,
+        .separator = file.separator,
+        .comma = file.separator != ','};
     if (status == CREASE_OK)
         status = read_rows(&file, &table, out);
     crease_table_free(&table);
+    crease_columns_free(&file.columns);
+    return status;
+}
+
+crease_status crease_xyz_layout(
+    crease_context *context, const crease_source *head, crease_layout *out)
+{
+    const crease_read_options options = crease_read_options_default();
+    xyz file = {.context = context, .source = head, .options = &options};
+    crease_status status = open_file(&file);
+    if (status == CREASE_OK && (!file.first.at || file.rest == head->bytes + head->size))
+        status = crease_fail(context, CREASE_ERROR_UNSUPPORTED,
+            "%s: what is before its second row is too long, or there is none, for reading in parts",
+            head->name);
+    if (status == CREASE_OK)
+        status = crease_columns_settle(context, head, &file.columns);
+    if (status == CREASE_OK)
+        *out = (crease_layout){.counted = file.counted,
+            .count = file.promised,
+            .first = (size_t)(file.body - head->bytes),
+            .alone = true,
+            .is_row = data_of,
+            .lead = (size_t)(file.rest - head->bytes),
+            .line = file.first_line,
+            .columns = file.columns.count,
+            .asks =
+                (!file.named && file.columns.count == 6) || crease_colours_named(&file.columns)};
     crease_columns_free(&file.columns);
     return status;
 }

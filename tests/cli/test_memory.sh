@@ -98,6 +98,28 @@ expect 0 "" detect scan.las -d jackknife -o whole.ply -q
 expect 0 "worked on in" detect scan.las -d jackknife -o parts.ply --memory 50M
 check "LAS: scores are the same" same_columns whole.ply parts.ply x y z intensity classification variance
 
+# --- rows of text
+python3 - <<'END'
+import random
+random.seed(4)
+rows = [(random.random(), random.random(), i % 256) for i in range(30000)]
+rows = [(x, y, abs(x - 0.5) + random.gauss(0, 1e-3), red) for x, y, red in rows]
+with open("scan.csv", "w") as out:
+    print("# rows\nx,y,z,red", file=out)
+    for row in rows:
+        print("%.17g,%.17g,%.17g,%d" % row, file=out)
+with open("text.ply", "w") as out:
+    print("ply\nformat ascii 1.0\nelement vertex 30000\nproperty double x\nproperty double y\n"
+          "property double z\nproperty uchar red\nend_header", file=out)
+    for row in rows:
+        print("%.17g %.17g %.17g %d" % row, file=out)
+END
+expect 0 "" detect scan.csv -d jackknife -o whole.ply -q
+for file in scan.csv text.ply; do
+    expect 0 "worked on in" detect $file -d jackknife -o parts.ply --memory 50M
+    check "$file: columns and scores are the same" same_columns whole.ply parts.ply x y z red variance
+done
+
 # --- fit takes a sample
 expect 0 "fitted to a sample of" fit scan.ply --method averaging --memory 50M -o net.json
 
@@ -110,8 +132,11 @@ expect 2 "end it in .ply" detect scan.ply --memory 50M -o parts.csv
 expect 2 "at least 50M" detect scan.ply --memory 1M -o parts.ply
 expect 2 "at least 50M" detect scan.ply --memory 5X -o parts.ply
 expect 3 "no such file" detect none.ply --memory 50M -o parts.ply
-expect 0 "" filter scan.ply -p 0 -o scan.csv
-expect 1 "more than --memory allows" detect scan.csv --memory 50M -o parts.ply
+python3 -c '
+with open("scan.obj", "w") as out:
+    for i in range(300000):
+        print("v", i % 777, i // 777, "0", " " * 200, file=out)'
+expect 1 "more than --memory allows" detect scan.obj --memory 50M -o parts.ply
 head -c 100000 little.ply >short.ply
 expect 3 "get the whole file" detect short.ply --memory 50M -o parts.ply
 expect 1 "name another folder" detect scan.ply --memory 50M --scratch /no/such -o parts.ply
