@@ -8,7 +8,6 @@
 #include "fit/chart.h"
 #include "fit/form_fit.h"
 #include "fit/isolate.h"
-#include "fit/straight.h"
 #include "fit/unroll.h"
 
 #include <float.h>
@@ -356,19 +355,19 @@ static crease_status run(
 }
 
 crease_status crease_curved_fit(crease_context *context, const crease_cloud *cloud,
-    const crease_sheet_options *options, crease_sheet **out)
+    const crease_sheet_options *options, crease_straightness *found, crease_sheet **out)
 {
     work w = {.options = options};
-    bool straight = true;
     *out = NULL;
+    *found = (crease_straightness){.straight = true};
     if (crease_cloud_count(cloud) < LEAST_POINTS)
         return CREASE_OK;
     crease_status status = survey(context, &w, cloud);
     if (status != CREASE_OK && status != CREASE_ERROR_NO_MEMORY && status != CREASE_ERROR_CANCELLED)
         status = CREASE_OK; /* no creases that could be told: a height field must do */
     else if (status == CREASE_OK && crease_network_count(w.network) > 0)
-        status = crease_straight(context, w.cloud, w.network, &straight);
-    if (status == CREASE_OK && !straight)
+        status = crease_straight(context, w.cloud, w.network, found);
+    if (status == CREASE_OK && !found->straight)
         status = run(context, &w, cloud, out);
     crease_form_free(&w.form);
     crease_feet_free(&w.feet);

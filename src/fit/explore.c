@@ -145,6 +145,24 @@ crease_status crease_explore_drop_lines(
     return status;
 }
 
+static crease_status grow(crease_context *context, crease_draft *draft, const crease_bounds *bounds)
+{
+    crease_status status = CREASE_OK;
+    bool grown = true;
+    while (grown && status == CREASE_OK && !(bounds->tolerance > 0.0))
+        status = crease_explore_grow(context, draft, bounds, &grown);
+    return status;
+}
+
+/* With a crease that is known the net may be refined at once: other lines that only stand in for
+ * simple knots are not taken, nor do they turn the frame. */
+static crease_status grow_about(
+    crease_context *context, crease_draft *draft, const crease_bounds *bounds, bool turn)
+{
+    const crease_status status = grow(context, draft, bounds);
+    return status == CREASE_OK ? crease_lines_refine(context, draft, 12, turn) : status;
+}
+
 crease_status crease_explore(crease_context *context, crease_draft *draft,
     const crease_bounds *bounds, const crease_candidate *candidates, size_t count, bool turn)
 {
@@ -158,17 +176,15 @@ crease_status crease_explore(crease_context *context, crease_draft *draft,
         status = try_candidate(context, draft, bounds, &candidates[i], &taken);
         if (taken && refined++ < FIRST_LINES && status == CREASE_OK)
             status = crease_lines_refine(context, draft, 12, turn);
+        if (taken && isinf(candidates[i].gain) && status == CREASE_OK)
+            status = grow_about(context, draft, bounds, turn);
     }
     if (status == CREASE_OK)
         status = crease_lines_refine(context, draft, 12, turn);
     if (status == CREASE_OK)
         status = crease_explore_drop_lines(context, draft, bounds, 1);
-    bool grown = true;
-    while (grown && status == CREASE_OK) {
-        grown = false;
-        if (!(bounds->tolerance > 0.0))
-            status = crease_explore_grow(context, draft, bounds, &grown);
-    }
+    if (status == CREASE_OK)
+        status = grow(context, draft, bounds);
     if (status == CREASE_OK && bounds->tolerance > 0.0)
         status = grow_to_tolerance(context, draft, bounds);
     return status;

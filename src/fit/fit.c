@@ -6,6 +6,7 @@
  * number of further knots, the bending weight and the lines that stay are those with the best
  * score; then the lines are moved, and the frame is turned, to where the points fit best. */
 #include "base/memory.h"
+#include "fit/better.h"
 #include "fit/curved.h"
 #include "fit/fitting.h"
 #include "spline/sheet.h"
@@ -61,29 +62,51 @@ static crease_status fit_height(crease_context *context, crease_fitting *f, crea
 
 /* Curved creases, and folds that no height field has, unless the options ask for a height field. */
 static crease_status try_curved(crease_context *context, const crease_cloud *cloud,
-    const crease_sheet_options *o, crease_sheet **sheet)
+    const crease_sheet_options *o, crease_straightness *found, crease_sheet **sheet)
 {
+    *found = (crease_straightness){.straight = true};
     if (o->orientation != CREASE_ORIENTATION_AUTOMATIC || o->net[0] || o->net[1] ||
         o->creases == 0 || o->smoothing >= 0.0)
         return CREASE_OK;
-    const crease_status status = crease_curved_fit(context, cloud, o, sheet);
+    const crease_status status = crease_curved_fit(context, cloud, o, found, sheet);
     return status == CREASE_OK && *sheet
         ? crease_fitting_project(
               context, NULL, crease_cloud_points(cloud), crease_cloud_count(cloud), *sheet)
         : status;
 }
 
+/* A height field beside a curved sheet whose creases may be straight: the better one is kept. */
+static crease_status compare(crease_context *context, crease_fitting *f, crease_sheet **sheet)
+{
+    crease_sheet *height = NULL;
+    const crease_status status = fit_height(context, f, &height);
+    if (status == CREASE_OK && height->line_count > 0 &&
+        crease_better_height(height, *sheet, f->draft.frame.rotation + 6, f->spacing)) {
+        crease_sheet *const curved = *sheet;
+        *sheet = height;
+        height = curved;
+    }
+    crease_sheet_free(height);
+    return status == CREASE_ERROR_NUMERIC || status == CREASE_ERROR_DEGENERATE ? CREASE_OK : status;
+}
+
 static crease_status fit(crease_context *context, const crease_cloud *cloud,
     const crease_sheet_options *options, crease_sheet **sheet)
 {
     crease_fitting f;
+    crease_straightness found = {.straight = true};
     crease_status status = crease_fitting_create(context, cloud, options, &f);
     if (status == CREASE_OK)
         status = crease_fitting_find_exact(context, &f);
-    if (status == CREASE_OK && !f.exact)
-        status = try_curved(context, cloud, options, sheet);
+    if (status == CREASE_OK && !f.exact) {
+        status = try_curved(context, cloud, options, &found, sheet);
+        if (found.nearly)
+            crease_fitting_follow(&f, found.point, found.direction);
+    }
     if (status == CREASE_OK && !*sheet)
         status = fit_height(context, &f, sheet);
+    else if (status == CREASE_OK && found.nearly)
+        status = compare(context, &f, sheet);
     crease_fitting_free(&f);
     return status;
 }

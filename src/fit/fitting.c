@@ -20,6 +20,8 @@
 
 /* Mean distances of two fits of which one serves the other: in shares. */
 static const double ALIKE = 0.98;
+static const double ALONG = 0.01; /* sine of the angle of a line to a crease that it may follow */
+static const double STEEP = 0.7;  /* cosine of the angle of a crease to z that no line follows */
 static const double EXACT = 1e-9; /* mean distance, in spacings */
 
 enum {
@@ -119,6 +121,27 @@ void crease_fitting_free(crease_fitting *fitting)
     crease_draft_free(&fitting->draft);
     free(fitting->keep);
     fitting->keep = NULL;
+}
+
+void crease_fitting_follow(crease_fitting *f, const double point[3], const double direction[3])
+{
+    double m[9];
+    memcpy(m, f->draft.frame.rotation, sizeof m);
+    const double x = crease_vector_dot(m, direction), y = crease_vector_dot(m + 3, direction);
+    const double z = crease_vector_dot(m + 6, direction);
+    if ((f->oriented.edge && fmin(fabs(x), fabs(y)) < ALONG * hypot(x, y)) || !(fabs(z) < STEEP))
+        return;
+    for (int c = 0; c < 3; c++) { /* z at right angles to the crease, y along it */
+        m[6 + c] -= z * direction[c];
+        m[3 + c] = direction[c];
+    }
+    crease_vector_normalise(m + 6);
+    crease_vector_cross(m + 3, m + 6, m);
+    memcpy(f->draft.frame.rotation, m, sizeof m);
+    memcpy(f->oriented.frame.rotation, m, sizeof m);
+    memcpy(f->oriented.point, point, sizeof f->oriented.point);
+    memcpy(f->oriented.direction, direction, sizeof f->oriented.direction);
+    f->oriented.edge = true;
 }
 
 static crease_status draft_samples(

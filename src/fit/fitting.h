@@ -34,6 +34,10 @@ crease_status crease_fitting_check(
 crease_status crease_fitting_create(crease_context *context, const crease_cloud *cloud,
     const crease_sheet_options *options, crease_fitting *out);
 void crease_fitting_free(crease_fitting *fitting);
+/* Turns the frame so that lines can follow a direction in which a crease is known to run, unless
+ * they can already. */
+void crease_fitting_follow(
+    crease_fitting *fitting, const double point[3], const double direction[3]);
 /* Looks for a sheet of few control points that goes through all points, see fit/exact.h, where the
  * options leave the frame free. If there is one, there is nothing to choose but how to fill gaps.
  */
