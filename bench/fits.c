@@ -6,7 +6,7 @@
  * seconds of the sum over the points, of the solution, and the peak memory in MB. */
 #include "bench.h"
 
-#include "fit/system.h"
+#include "net/system.h"
 
 #include <math.h>
 #include <stdio.h>

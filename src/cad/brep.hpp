@@ -7,7 +7,7 @@
 #define CREASE_CAD_BREP_HPP
 
 #include "cad/sheet.hpp"
-#include "model/topology.h"
+#include "topology/topology.h"
 
 #include <TopoDS_Shape.hxx>
 

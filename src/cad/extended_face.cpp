@@ -4,7 +4,7 @@
 #include "cad/extended_face.hpp"
 
 #include "cad/height_field.hpp"
-#include "model/chart.h"
+#include "topology/chart.h"
 
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <ElSLib.hxx>

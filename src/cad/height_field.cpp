@@ -8,7 +8,7 @@
 #include "cad/height_field.hpp"
 
 #include "cad/kernel.hpp"
-#include "model/chart.h"
+#include "topology/chart.h"
 
 #include <GeomAPI_PointsToBSplineSurface.hxx>
 #include <TColStd_Array1OfReal.hxx>

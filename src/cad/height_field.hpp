@@ -18,7 +18,7 @@ Handle(Geom_BSplineSurface)
     tube_through(const TColStd_Array2OfReal &distances, double low, double high);
 
 /* The bicubic surface through distances from the origin over an even grid of a stereographic
- * projection (see segment/base.h), its parameters. Throws Failure. */
+ * projection (see primitive/base.h), its parameters. Throws Failure. */
 Handle(Geom_BSplineSurface)
     ball_through(const TColStd_Array2OfReal &distances, const double low[2], const double high[2]);
 

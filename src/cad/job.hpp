@@ -9,8 +9,8 @@
 
 #include "cad/sheet.hpp"
 #include "crease/crease_cad.h"
-#include "model/assembly.h"
-#include "model/carriers.h"
+#include "topology/assembly.h"
+#include "topology/carriers.h"
 
 #include <TopoDS_Shape.hxx>
 #include <gp_Ax3.hxx>

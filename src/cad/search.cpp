@@ -7,7 +7,7 @@
 #include "cad/effort.hpp"
 #include "cad/kernel.hpp"
 #include "cad/ways.hpp"
-#include "segment/coarser.h"
+#include "snap/coarser.h"
 
 #include <algorithm>
 #include <sys/resource.h>

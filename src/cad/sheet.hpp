@@ -5,7 +5,7 @@
 #ifndef CREASE_CAD_SHEET_HPP
 #define CREASE_CAD_SHEET_HPP
 
-#include "model/chart.h"
+#include "topology/chart.h"
 
 #include <Geom_Surface.hxx>
 #include <gp_Ax3.hxx>

@@ -5,7 +5,7 @@
 #ifndef CREASE_CREASE_INTERSECT_H
 #define CREASE_CREASE_INTERSECT_H
 
-#include "segment/model.h"
+#include "primitive/model.h"
 
 /* Moves a place onto both models, the shortest way, by at most `reach`. tangent: the unit direction
  * of their common curve there, gradient of the first x gradient of the second. False, and the place

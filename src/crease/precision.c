@@ -4,7 +4,7 @@
 #include "crease/precision.h"
 
 #include "base/vector.h"
-#include "segment/patch.h"
+#include "primitive/patch.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
 #ifndef CREASE_FIT_CLOSEST_H
 #define CREASE_FIT_CLOSEST_H
 
-#include "fit/height.h"
+#include "net/height.h"
 
 /* What crease_surface_project() finds, for a surface that is a height over its parameters, sooner.
  * Newton's method goes from straight below a point to a foot. Nothing is closer than that when the

@@ -7,7 +7,7 @@
 #define CREASE_FIT_COURSE_H
 
 #include "base/context.h"
-#include "fit/layout.h"
+#include "net/layout.h"
 
 typedef struct crease_course {
     size_t count;

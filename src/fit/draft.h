@@ -5,7 +5,7 @@
 #ifndef CREASE_FIT_DRAFT_H
 #define CREASE_FIT_DRAFT_H
 
-#include "fit/system.h"
+#include "net/system.h"
 
 /* The weights of the bending term that are tried, from next to nothing to planes between creases.
  */

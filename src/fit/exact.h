@@ -6,7 +6,7 @@
 #define CREASE_FIT_EXACT_H
 
 #include "averaging/orient.h"
-#include "fit/samples.h"
+#include "net/samples.h"
 
 /* Looks for a frame, whichever way it is turned in space, in which the points are the height of a
  * sheet without simple knots, with at most one crease line: a polynomial, or two that meet in a

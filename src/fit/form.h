@@ -5,7 +5,7 @@
 #ifndef CREASE_FIT_FORM_H
 #define CREASE_FIT_FORM_H
 
-#include "fit/height.h"
+#include "net/height.h"
 
 typedef struct crease_form {
     crease_layout layout;

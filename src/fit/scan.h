@@ -5,7 +5,7 @@
 #ifndef CREASE_FIT_SCAN_H
 #define CREASE_FIT_SCAN_H
 
-#include "fit/samples.h"
+#include "net/samples.h"
 
 enum { CREASE_MOST_CANDIDATES = 16 };
 

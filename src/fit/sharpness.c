@@ -3,7 +3,7 @@
 
 #include "fit/sharpness.h"
 
-#include "fit/gaps.h"
+#include "net/gaps.h"
 
 #include <math.h>
 

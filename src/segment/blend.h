@@ -5,7 +5,7 @@
 #ifndef CREASE_SEGMENT_BLEND_H
 #define CREASE_SEGMENT_BLEND_H
 
-#include "segment/rolling.h"
+#include "primitive/rolling.h"
 #include "segment/segmentation.h"
 
 enum { CREASE_BLEND_PARTS = 8 };

@@ -7,11 +7,11 @@
 #include "base/memory.h"
 #include "cloud/blur.h"
 #include "cloud/cloud.h"
+#include "primitive/uncertainty.h"
 #include "segment/excerpt.h"
 #include "segment/result.h"
 #include "segment/segmentation.h"
 #include "segment/surroundings.h"
-#include "segment/uncertainty.h"
 
 #include <math.h>
 #include <stdlib.h>

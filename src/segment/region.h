@@ -10,7 +10,7 @@
 #define CREASE_SEGMENT_REGION_H
 
 #include "cloud/noise.h"
-#include "segment/model.h"
+#include "primitive/model.h"
 #include "segment/snaps.h"
 #include "space/neighbours.h"
 

@@ -7,8 +7,8 @@
 #define CREASE_SEGMENT_SEGMENTATION_H
 
 #include "cloud/noise.h"
-#include "segment/fitter.h"
-#include "segment/model.h"
+#include "primitive/fitter.h"
+#include "primitive/model.h"
 
 #include <stdatomic.h>
 

@@ -7,8 +7,8 @@
  * fillets and their planes join without an angle as well.
  *
  * Based on: Schwarz. Estimating the dimension of a model. 1978. */
+#include "primitive/patch.h"
 #include "segment/border.h"
-#include "segment/patch.h"
 #include "segment/vague.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
 /* A box whose edges and corners are all rounded: no crease tells where its vertices are. */
 #include "given_models.h"
 
-#include "model/assembly.h"
+#include "topology/assembly.h"
 
 static const double S = 1.0 / 16, RADIUS = 0.4;
 static const double HALF[3] = {1.2, 1.0, 0.8}; /* of the box between the roundings */

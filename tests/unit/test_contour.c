@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "base/vector.h"
-#include "model/contour.h"
+#include "trim/contour.h"
 
 #include <stdlib.h>
 

@@ -4,8 +4,8 @@
 #include "given_faces.h"
 
 #include "base/vector.h"
+#include "primitive/rolling.h"
 #include "segment/region.h"
-#include "segment/rolling.h"
 
 static const double y_axis[3] = {0, 1, 0};
 static const double SPACING = 0.04;

@@ -5,8 +5,8 @@
 #include "given.h"
 
 #include "base/random.h"
-#include "fit/gaps.h"
 #include "fit/group.h"
+#include "net/gaps.h"
 
 #include <stdlib.h>
 

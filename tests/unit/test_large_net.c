@@ -6,8 +6,8 @@
 
 #include "base/memory.h"
 #include "base/random.h"
-#include "fit/level.h"
-#include "fit/system.h"
+#include "net/level.h"
+#include "net/system.h"
 
 #include <stdlib.h>
 

@@ -4,7 +4,7 @@
 #include "given.h"
 
 #include "base/random.h"
-#include "model/mesh.h"
+#include "mesh/mesh.h"
 
 enum { PLACES = 2000 };
 

@@ -4,10 +4,10 @@
 #include "given_faces.h"
 
 #include "base/vector.h"
-#include "segment/fitter.h"
-#include "segment/patch.h"
-#include "segment/primitive.h"
-#include "segment/uncertainty.h"
+#include "primitive/fitter.h"
+#include "primitive/patch.h"
+#include "primitive/primitive.h"
+#include "primitive/uncertainty.h"
 
 /* The primitives that the tests measure, in a frame along no axis, far from the origin. */
 static crease_model given_model(crease_region_type type)

@@ -4,7 +4,7 @@
 /* Regions of the plane, cut along its axes: areas, faces and the edges that they share. */
 #include "given.h"
 
-#include "model/overlay.h"
+#include "trim/overlay.h"
 
 enum { MOST_CORNERS = 64 };
 

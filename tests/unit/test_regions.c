@@ -3,7 +3,7 @@
 
 #include "given_faces.h"
 
-#include "segment/patch.h"
+#include "primitive/patch.h"
 #include "segment/region.h"
 
 static const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0}, z_axis[3] = {0, 0, 1};

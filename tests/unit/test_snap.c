@@ -4,9 +4,9 @@
 #include "given_faces.h"
 
 #include "base/vector.h"
-#include "segment/body.h"
-#include "segment/cluster.h"
-#include "segment/joint.h"
+#include "snap/body.h"
+#include "snap/cluster.h"
+#include "snap/joint.h"
 
 static const double x_axis[3] = {1, 0, 0}, y_axis[3] = {0, 1, 0};
 

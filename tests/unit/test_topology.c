@@ -4,8 +4,8 @@
 /* Topology of bodies whose models are exact, so that every number is known. */
 #include "given_models.h"
 
-#include "model/assembly.h"
-#include "model/graph.h"
+#include "topology/assembly.h"
+#include "topology/graph.h"
 
 static const double S = 1.0 / 16;
 
