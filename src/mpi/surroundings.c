@@ -7,8 +7,8 @@
 
 #include "base/memory.h"
 #include "cloud/cloud.h"
-#include "cloud/windows.h"
 #include "mpi/share.h"
+#include "noise/windows.h"
 #include "space/neighbours.h"
 
 #include <stdlib.h>

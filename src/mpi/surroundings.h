@@ -5,8 +5,8 @@
 #ifndef CREASE_MPI_SURROUNDINGS_H
 #define CREASE_MPI_SURROUNDINGS_H
 
-#include "cloud/noise.h"
 #include "mpi/share.h"
+#include "noise/noise.h"
 
 /* Rank 0's room for what is found of all points, which are in Morton order. */
 typedef struct crease_mpi_surroundings {

@@ -15,7 +15,7 @@
 enum { GRAIN = 1024 };
 
 static const double outlier_sigmas = 5.0;
-static const double flatness = 0.03;   /* least sigma in spacings: see cloud/noise.h */
+static const double flatness = 0.03;   /* least sigma in spacings: see noise/noise.h */
 static const double to_sigma = 1.4826; /* from the median of absolute values */
 
 /* All labelled points, region by region; first: where those of each begin, and the end. */

@@ -6,8 +6,8 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/vector.h"
-#include "cloud/blur.h"
 #include "cloud/cloud.h"
+#include "noise/blur.h"
 #include "space/kdtree.h"
 
 #include <math.h>

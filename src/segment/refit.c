@@ -18,7 +18,7 @@
 enum { GRAIN = 4096, LEAST_MEMBERS = 6, LEAST_INTERIOR = 30, LARGE_FREEFORM = 1000 };
 enum { DEEP_REGION = 60, LEAST_RESIDUALS = 200 };
 
-static const double least_sigma = 0.03; /* in spacings, as in cloud/noise.c */
+static const double least_sigma = 0.03; /* in spacings, as in noise/noise.c */
 static const double least_share = 0.8;  /* of the first estimate: residuals that are smaller still
                                            come of too many regions */
 static const double certain = 4.0;      /* sigmas from another surface that no point of it has */

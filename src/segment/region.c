@@ -5,8 +5,8 @@
 #include "segment/region.h"
 
 #include "base/memory.h"
-#include "cloud/blur.h"
 #include "cloud/cloud.h"
+#include "noise/blur.h"
 #include "primitive/uncertainty.h"
 #include "segment/excerpt.h"
 #include "segment/result.h"

@@ -9,7 +9,7 @@
 #ifndef CREASE_SEGMENT_REGION_H
 #define CREASE_SEGMENT_REGION_H
 
-#include "cloud/noise.h"
+#include "noise/noise.h"
 #include "primitive/model.h"
 #include "segment/snaps.h"
 #include "space/neighbours.h"
@@ -27,7 +27,7 @@ struct crease_regions {
     double sigma;                  /* what residuals are weighed by: more than the noise where
                                       neighbouring points err alike */
     int32_t *labels;               /* number of the region, or CREASE_NO_REGION */
-    uint8_t *rounded; /* points on edges that the scanner has rounded, see cloud/blur.h;
+    uint8_t *rounded; /* points on edges that the scanner has rounded, see noise/blur.h;
                          NULL where it has not */
     size_t region_count;
     crease_model *models;     /* region_count */

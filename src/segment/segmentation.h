@@ -6,7 +6,7 @@
 #ifndef CREASE_SEGMENT_SEGMENTATION_H
 #define CREASE_SEGMENT_SEGMENTATION_H
 
-#include "cloud/noise.h"
+#include "noise/noise.h"
 #include "primitive/fitter.h"
 #include "primitive/model.h"
 

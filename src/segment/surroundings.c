@@ -5,8 +5,8 @@
 
 #include "base/memory.h"
 #include "base/store.h"
-#include "cloud/blur.h"
 #include "cloud/cloud.h"
+#include "noise/blur.h"
 #include "space/morton.h"
 
 #include <math.h>

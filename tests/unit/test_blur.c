@@ -4,8 +4,8 @@
 /* Ridges as scanners see them: sharp, or rounded over some spacings. */
 #include "given_faces.h"
 
-#include "cloud/blur.h"
-#include "cloud/noise.h"
+#include "noise/blur.h"
+#include "noise/noise.h"
 
 /* A ridge of spacing 1 along y, at x = 0 and z = 0, whose sides fall as steeply as `fall` says; it
  * is rounded with a radius. Errors along z are shared by `alike` points of a line. */

@@ -4,7 +4,7 @@
 #include "given.h"
 
 #include "base/random.h"
-#include "cloud/footing.h"
+#include "noise/footing.h"
 
 static const double spacing = 0.02;
 static const double sigma = 0.32 * 0.02;

@@ -4,7 +4,7 @@
 #include "given_faces.h"
 
 #include "base/symmetric.h"
-#include "cloud/noise.h"
+#include "noise/noise.h"
 
 static crease_noise *given_noise(crease_context *context, const struct faces *faces)
 {

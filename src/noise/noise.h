@@ -2,8 +2,8 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* Spacing, noise and normals of a cloud. Internal view. */
-#ifndef CREASE_CLOUD_NOISE_H
-#define CREASE_CLOUD_NOISE_H
+#ifndef CREASE_NOISE_NOISE_H
+#define CREASE_NOISE_NOISE_H
 
 #include "base/context.h"
 

@@ -4,11 +4,11 @@
 /* Height fields fitted to the windows around some points of a cloud: what the noise and the normals
  * are found from. The points may be those of a piece of the cloud; what a window says does not
  * depend on how the cloud is cut. */
-#ifndef CREASE_CLOUD_WINDOWS_H
-#define CREASE_CLOUD_WINDOWS_H
+#ifndef CREASE_NOISE_WINDOWS_H
+#define CREASE_NOISE_WINDOWS_H
 
-#include "cloud/noise.h"
-#include "cloud/quadric.h"
+#include "noise/noise.h"
+#include "noise/quadric.h"
 
 /* Neighbours of a point in its windows, without the point itself: fewer in tiny clouds. */
 typedef struct crease_window_sizes {

@@ -12,13 +12,13 @@
  * Normals. A window across an edge has no meaningful normal. Each point takes the normal from
  * whichever of the windows that contain it has the least residual, nearer ones preferred where the
  * difference is noise: the window then lies on the point's own side of the edge. */
-#include "cloud/noise.h"
+#include "noise/noise.h"
 
 #include "base/memory.h"
 #include "base/select.h"
 #include "base/vector.h"
-#include "cloud/correlation.h"
-#include "cloud/windows.h"
+#include "noise/correlation.h"
+#include "noise/windows.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,10 +3,10 @@
 
 /* Edges that a scanner has rounded: a camera that matches windows of pixels shows no edge sharper
  * than its window, but a bent strip some spacings wide. */
-#ifndef CREASE_CLOUD_BLUR_H
-#define CREASE_CLOUD_BLUR_H
+#ifndef CREASE_NOISE_BLUR_H
+#define CREASE_NOISE_BLUR_H
 
-#include "cloud/noise.h"
+#include "noise/noise.h"
 
 /* Half the width of a rounded edge, at most, in spacings. */
 static const double CREASE_BLUR_REACH = 5.0;

@@ -3,7 +3,7 @@
 
 /* Based on: Tomasi, Manduchi. Bilateral filtering for gray and color images. 1998.
  * Based on: Jones, Durand, Zwicker. Normal improvement for point rendering. 2004 (of normals). */
-#include "cloud/bilateral.h"
+#include "noise/bilateral.h"
 
 #include "base/parallel.h"
 #include "base/vector.h"

@@ -5,12 +5,12 @@
  * cannot follow a sharp edge: along one it leaves far more than elsewhere. Where it bends fast and
  * yet leaves no more than on flat ground, the edge is rounded over about the width of the window.
  * When that is so at nearly all places that bend fast, the scanner did it, not the part. */
-#include "cloud/blur.h"
+#include "noise/blur.h"
 
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/select.h"
-#include "cloud/quadric.h"
+#include "noise/quadric.h"
 #include "space/nearest.h"
 
 #include <math.h>

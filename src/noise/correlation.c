@@ -16,13 +16,13 @@
  * Where the variance grows from the first size to the second, and then at a falling rate, the last
  * such size tells the noise. How many points err alike follows from what a fit takes out of the
  * mean square of the residuals: each of its p parameters a share of (points alike) / (points). */
-#include "cloud/correlation.h"
+#include "noise/correlation.h"
 
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/select.h"
 #include "base/vector.h"
-#include "cloud/quadric.h"
+#include "noise/quadric.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 
 /* Planes and quadrics z = h0 + h1 x + h2 y + h3 x^2 + h4 x y + h5 y^2 through a few points, by
  * least squares. */
-#ifndef CREASE_CLOUD_QUADRIC_H
-#define CREASE_CLOUD_QUADRIC_H
+#ifndef CREASE_NOISE_QUADRIC_H
+#define CREASE_NOISE_QUADRIC_H
 
 enum { CREASE_QUADRIC_TERMS = 6 };
 

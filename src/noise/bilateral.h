@@ -2,8 +2,8 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* Normals with less noise, edges kept. */
-#ifndef CREASE_CLOUD_BILATERAL_H
-#define CREASE_CLOUD_BILATERAL_H
+#ifndef CREASE_NOISE_BILATERAL_H
+#define CREASE_NOISE_BILATERAL_H
 
 #include "base/context.h"
 

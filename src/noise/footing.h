@@ -2,8 +2,8 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* The surface beside one point, from those neighbours that lie on its side of any edge. */
-#ifndef CREASE_CLOUD_FOOTING_H
-#define CREASE_CLOUD_FOOTING_H
+#ifndef CREASE_NOISE_FOOTING_H
+#define CREASE_NOISE_FOOTING_H
 
 #include "base/context.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-#include "cloud/quadric.h"
+#include "noise/quadric.h"
 
 #include "base/symmetric.h"
 #include "base/vector.h"

@@ -12,7 +12,7 @@
  * Based on: Oztireli, Guennebaud, Gross. Feature preserving point set surfaces based on non-linear
  * kernel regression. 2009 (weights by residual and by normal).
  * Based on: Beaton, Tukey. The fitting of power series. 1974 (the weights of the residuals). */
-#include "cloud/footing.h"
+#include "noise/footing.h"
 
 #include "base/select.h"
 #include "base/symmetric.h"

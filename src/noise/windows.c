@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-#include "cloud/windows.h"
+#include "noise/windows.h"
 
 #include "base/memory.h"
 #include "base/parallel.h"

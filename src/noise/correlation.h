@@ -2,8 +2,8 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* Noise that neighbouring points share. */
-#ifndef CREASE_CLOUD_CORRELATION_H
-#define CREASE_CLOUD_CORRELATION_H
+#ifndef CREASE_NOISE_CORRELATION_H
+#define CREASE_NOISE_CORRELATION_H
 
 #include "base/context.h"
 

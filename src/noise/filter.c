@@ -13,10 +13,10 @@
 #include "base/parallel.h"
 #include "base/select.h"
 #include "base/vector.h"
-#include "cloud/bilateral.h"
 #include "cloud/cloud.h"
-#include "cloud/footing.h"
-#include "cloud/noise.h"
+#include "noise/bilateral.h"
+#include "noise/footing.h"
+#include "noise/noise.h"
 
 #include <math.h>
 #include <stdlib.h>
