@@ -698,9 +698,9 @@ CREASE_API crease_status crease_sheet_fit(crease_context *context, const crease_
     const crease_sheet_options *options, crease_sheet **out);
 /** Tells whether a sheet carries the creases of its cloud: whether its points are no further from
  * it than their noise explains, the creases of the network lie on its lines, within half a spacing
- * but for a tenth of their length, and it bends sharply nowhere else; or whether they lie on it
- * within 1e-7 spacings, four points or more for each control point. regions and network: of the
- * cloud that the sheet was fitted to. Errors: ARGUMENT (of another cloud), NO_MEMORY, CANCELLED. */
+ * but for a tenth of their length, and it bends sharply nowhere else within 2 spacings of a point;
+ * or whether they lie on it within 1e-7 spacings, four points or more for each control point.
+ * regions, network: of the same cloud. Errors: ARGUMENT (of another), NO_MEMORY, CANCELLED. */
 CREASE_API crease_status crease_sheet_carries(crease_context *context, const crease_sheet *sheet,
     const crease_regions *regions, const crease_network *network, bool *carries);
 

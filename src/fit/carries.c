@@ -19,6 +19,7 @@ static const double FEW =
 static const double EXCESS = 1.25;     /* of the residual over the noise */
 static const double ASTRAY = 0.5;      /* spacings between a crease and the sheet's line */
 static const double UNKNOWN = 3.0;     /* spacings from every crease: a bend of the sheet's own */
+static const double SHOWN = 2.0;       /* spacings from a point, at most, for a bend to count */
 static const double LEAST_BEND = 10.0; /* degrees */
 static const double TOLERATED = 0.1;   /* of the length of all creases, or of all bends */
 
@@ -64,26 +65,38 @@ static crease_status add_curve(
     return status;
 }
 
-/* How many of the places are further than `far` from all of the others. */
-static crease_status count_far(crease_context *context, const stations *places,
-    const stations *others, double far, size_t *count)
+/* Squares of the distances of places to the nearest of the others. */
+static crease_status measure(crease_context *context, const double *places, size_t count,
+    const stations *others, double *squares)
 {
     crease_tree *tree = NULL;
-    *count = places->count;
-    if (places->count == 0 || others->count == 0)
+    for (size_t i = 0; i < count; i++)
+        squares[i] = INFINITY;
+    if (others->count == 0)
         return CREASE_OK;
-    uint32_t *const near = crease_allocate(context, places->count, sizeof *near);
-    double *const squares = crease_allocate(context, places->count, sizeof *squares);
-    crease_status status = near && squares
-        ? crease_tree_create(context, others->places, others->count, &tree)
-        : CREASE_ERROR_NO_MEMORY;
+    uint32_t *const near = crease_allocate(context, count, sizeof *near);
+    crease_status status = near ? crease_tree_create(context, others->places, others->count, &tree)
+                                : CREASE_ERROR_NO_MEMORY;
     if (status == CREASE_OK)
-        status =
-            crease_tree_nearest(context, tree, places->places, places->count, 1, near, squares);
-    for (size_t i = 0; i < places->count && status == CREASE_OK; i++)
-        *count -= squares[i] <= far * far;
+        status = crease_tree_nearest(context, tree, places, count, 1, near, squares);
     crease_tree_free(tree);
     free(near);
+    return status;
+}
+
+/* The places that lie within `reach` of one of the others, or those that do not. */
+static crease_status sift(crease_context *context, const stations *places, const stations *others,
+    double reach, bool within, stations *out)
+{
+    if (places->count == 0)
+        return CREASE_OK;
+    double *const squares = crease_allocate(context, places->count, sizeof *squares);
+    if (!squares)
+        return CREASE_ERROR_NO_MEMORY;
+    crease_status status = measure(context, places->places, places->count, others, squares);
+    for (size_t i = 0; i < places->count && status == CREASE_OK; i++)
+        if ((squares[i] <= reach * reach) == within)
+            status = add_place(context, places->places + 3 * i, out);
     free(squares);
     return status;
 }
@@ -126,24 +139,47 @@ static crease_status add_bends(
     return status;
 }
 
+/* Whether the creases run along bends. */
+static crease_status creases_bend(crease_context *context, const stations *creases,
+    const stations *bends, double spacing, bool *bend)
+{
+    stations astray = {0};
+    const crease_status status = sift(context, creases, bends, ASTRAY * spacing, false, &astray);
+    *bend = status == CREASE_OK && (double)astray.count <= TOLERATED * (double)creases->count;
+    free(astray.places);
+    return status;
+}
+
+/* Whether the bends run along creases, where there are points: a line goes on past their border. */
+static crease_status bends_crease(crease_context *context, const crease_sheet *sheet,
+    const stations *bends, const stations *creases, double spacing, bool *crease)
+{
+    const stations points = {.count = sheet->point_count, .places = sheet->projected};
+    stations shown = {0}, unknown = {0};
+    crease_status status = sift(context, bends, &points, SHOWN * spacing, true, &shown);
+    if (status == CREASE_OK)
+        status = sift(context, &shown, creases, UNKNOWN * spacing, false, &unknown);
+    *crease = status == CREASE_OK && (double)unknown.count <= TOLERATED * (double)shown.count;
+    free(shown.places);
+    free(unknown.places);
+    return status;
+}
+
 static crease_status creases_agree(
     crease_context *context, const crease_sheet *sheet, const crease_network *network, bool *agree)
 {
-    const double spacing = crease_network_spacing(network);
+    const double spacing = crease_network_spacing(network), step = 0.25 * spacing;
     stations creases = {0}, bends = {0};
-    size_t astray = 0, unknown = 0;
     crease_status status = CREASE_OK;
     for (size_t i = 0; i < crease_network_count(network) && status == CREASE_OK; i++)
         status = add_curve(context, crease_network_curves(network)[i],
-            crease_network_at(network, i).length, 0.25 * spacing, &creases);
+            crease_network_at(network, i).length, step, &creases);
     for (size_t l = 0; l < sheet->line_count && status == CREASE_OK; l++)
-        status = add_bends(context, sheet, l, 0.25 * spacing, &bends);
+        status = add_bends(context, sheet, l, step, &bends);
     if (status == CREASE_OK)
-        status = count_far(context, &creases, &bends, ASTRAY * spacing, &astray);
-    if (status == CREASE_OK)
-        status = count_far(context, &bends, &creases, UNKNOWN * spacing, &unknown);
-    *agree = status == CREASE_OK && (double)astray <= TOLERATED * (double)creases.count &&
-        (double)unknown <= TOLERATED * (double)bends.count;
+        status = creases_bend(context, &creases, &bends, spacing, agree);
+    if (status == CREASE_OK && *agree)
+        status = bends_crease(context, sheet, &bends, &creases, spacing, agree);
     free(creases.places);
     free(bends.places);
     return status;

@@ -18,24 +18,50 @@ typedef struct scene {
     crease_sheet *sheet;
 } scene;
 
+/* What a cloud is drawn from. */
+typedef struct draw {
+    uint64_t seed, side;
+    double noise;
+    bool turned;
+} draw;
+
+/* Turns a point by 40 degrees about x, then by 70 about z. */
+static void turn(double p[3])
+{
+    const double y = 0.76604444 * p[1] - 0.64278761 * p[2];
+    const double z = 0.64278761 * p[1] + 0.76604444 * p[2];
+    const double x = 0.34202014 * p[0] - 0.93969262 * y;
+    p[1] = 0.93969262 * p[0] + 0.34202014 * y;
+    p[0] = x;
+    p[2] = z;
+}
+
 /* One random point in each cell of a grid over the unit square, under a height; none where that is
  * infinite. */
-static scene given_heights(double (*height)(double x, double y), double noise)
+static scene given_drawn(double (*height)(double x, double y), draw d)
 {
     scene s = {.context = given_context_with_threads(2)};
-    double(*const points)[3] = calloc((size_t)SIDE * SIDE, sizeof *points);
+    double(*const points)[3] = calloc(d.side * d.side, sizeof *points);
+    const double side = (double)d.side;
     size_t count = 0;
     assert_non_null(points);
-    for (uint64_t i = 0; i < (uint64_t)SIDE * SIDE; i++) {
-        const double x = ((double)(i / SIDE) + crease_random_uniform(3, 1, i)) / SIDE;
-        const double y = ((double)(i % SIDE) + crease_random_uniform(3, 2, i)) / SIDE;
-        const double z = height(x, y) + noise * crease_random_normal(3, 3, i);
+    for (uint64_t i = 0; i < d.side * d.side; i++) {
+        const double x = ((double)(i / d.side) + crease_random_uniform(d.seed, 1, i)) / side;
+        const double y = ((double)(i % d.side) + crease_random_uniform(d.seed, 2, i)) / side;
+        const double z = height(x, y) + d.noise * crease_random_normal(d.seed, 3, i);
         if (isfinite(z))
             memcpy(points[count++], (double[]){x, y, z}, sizeof points[0]);
     }
+    for (size_t i = 0; i < count && d.turned; i++)
+        turn(points[i]);
     s.cloud = given_cloud_of(s.context, points[0], count);
     free(points);
     return s;
+}
+
+static scene given_heights(double (*height)(double x, double y), double noise)
+{
+    return given_drawn(height, (draw){.seed = 3, .side = SIDE, .noise = noise});
 }
 
 static size_t when_divided(scene *s, bool united)
@@ -78,6 +104,20 @@ static double star(double x, double y)
 {
     const double a = x - 0.5, b = y - 0.5;
     return fmax(a, fmax(-0.5 * a + 0.8660254 * b, -0.5 * a - 0.8660254 * b));
+}
+
+static double hip_roof(double x, double y)
+{
+    return fmin(fmin(y, 1.0 - y), fmin(1.5 * x, 1.5 * (1.0 - x)));
+}
+
+/* A hill and, aslant, a straight break line that is cut by a lake. */
+static double terrain(double x, double y)
+{
+    if (hypot(x - 0.6, y - 0.25) < 0.1)
+        return INFINITY;
+    return 0.1 * exp(-(pow(x - 0.3, 2.0) + pow(y - 0.6, 2.0)) / 0.03) +
+        0.5 * fmax(0.0, x + 0.4 * y - 0.8);
 }
 
 static double waves(double x, double y)
@@ -187,6 +227,30 @@ static void given_creases_that_meet_inside_then_no_sheet_carries_them(void **sta
     free_scene(&s);
 }
 
+static void given_a_break_line_aslant_then_the_sheet_carries_it(void **state)
+{
+    (void)state;
+    static const draw draws[] = {{.seed = 4, .side = 80, .noise = 0.0006},
+        {.seed = 5, .side = 80, .noise = 0.0018},
+        {.seed = 6, .side = 80, .noise = 0.0012, .turned = true}};
+    for (size_t i = 0; i < sizeof draws / sizeof *draws; i++) {
+        scene s = given_drawn(terrain, draws[i]);
+        assert_true(when_carried(&s));
+        free_scene(&s);
+    }
+}
+
+static void given_a_hip_roof_then_no_sheet_carries_its_creases(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        scene s = given_drawn(
+            hip_roof, (draw){.seed = seed, .side = SIDE, .noise = 0.006, .turned = seed == 3});
+        assert_false(when_carried(&s));
+        free_scene(&s);
+    }
+}
+
 static void given_no_crease_then_any_sheet_will_do(void **state)
 {
     (void)state;
@@ -206,6 +270,8 @@ int main(void)
         cmocka_unit_test(given_an_exact_plane_then_what_fits_nearly_is_no_plane),
         cmocka_unit_test(given_a_roof_then_the_sheet_carries_its_crease),
         cmocka_unit_test(given_creases_that_meet_inside_then_no_sheet_carries_them),
+        cmocka_unit_test(given_a_break_line_aslant_then_the_sheet_carries_it),
+        cmocka_unit_test(given_a_hip_roof_then_no_sheet_carries_its_creases),
         cmocka_unit_test(given_no_crease_then_any_sheet_will_do),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
