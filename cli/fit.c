@@ -4,6 +4,7 @@
 /* crease fit: chooses between a sheet, a shell and a part. */
 #include "fit.h"
 
+#include "cad.h"
 #include "engine.h"
 
 #include "command.h"
@@ -11,6 +12,7 @@
 #include "limit.h"
 
 #include "crease/crease_stream.h"
+#include "crease/crease_trim.h"
 
 /* With fewer points there are no regions to speak of. */
 enum { LEAST_FOR_SHELL = 500 };
@@ -35,7 +37,21 @@ typedef struct choice {
 } choice;
 
 #ifdef CREASE_HAVE_CAD
-/* A sheet if its lines carry the creases of the cloud, else a shell. */
+/* Whether the sheet can end where the points do, if it is to. */
+static crease_status can_end(
+    crease_context *context, const settings *s, const crease_sheet *sheet, bool *can)
+{
+    crease_trim *trim = NULL;
+    if (s->no_trim)
+        return CREASE_OK;
+    crease_status status = crease_sheet_trim(context, sheet, &trim);
+    if (status == CREASE_OK && !crease_trim_is_whole(trim))
+        status = cad_trim_mesh(context, trim, NULL, can);
+    crease_trim_free(trim);
+    return status;
+}
+
+/* A sheet if its lines carry the creases of the cloud and it can be trimmed, else a shell. */
 static crease_status sheet_or_shell(
     crease_context *context, const settings *s, const crease_cloud *cloud, choice *out)
 {
@@ -51,6 +67,8 @@ static crease_status sheet_or_shell(
         status = crease_sheet_fit(context, cloud, &s->sheet, &out->sheet);
     if (status == CREASE_OK)
         status = crease_sheet_carries(context, out->sheet, regions, network, &carries);
+    if (status == CREASE_OK && carries)
+        status = can_end(context, s, out->sheet, &carries);
     out->method = carries ? METHOD_SHEET : METHOD_SHELL;
     out->doubtful = !carries;
     crease_network_free(network);
