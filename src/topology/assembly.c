@@ -11,6 +11,7 @@
 #include "topology/ends.h"
 #include "topology/extend.h"
 #include "topology/face.h"
+#include "topology/lap.h"
 #include "topology/loop.h"
 #include "topology/missing.h"
 #include "topology/overshoot.h"
@@ -49,6 +50,8 @@ static crease_status close_gaps(crease_graph *graph, const crease_links *links, 
     crease_status status = crease_overshoots_retract(graph);
     if (status == CREASE_OK)
         status = crease_bridges_build(graph, links);
+    if (status == CREASE_OK)
+        status = crease_laps_close(graph);
     if (status == CREASE_OK)
         status = crease_missing_find(graph, links);
     return status == CREASE_OK ? crease_seams_relax(graph) : status;

@@ -234,18 +234,39 @@ static bool is_open(const crease_graph *graph, const struct gap *gap)
     return true;
 }
 
-static crease_status bridge(crease_graph *graph, const struct gap *gap)
+static crease_status make(crease_graph *graph, const struct gap *gap, crease_edge *out, bool *found)
 {
-    if (!is_open(graph, gap))
-        return CREASE_OK;
     const bool crossed = is_crossed(graph, gap);
+    *found = false;
+    *out = crease_edge_between(gap->regions[0], gap->regions[1]);
     if (!crossed && !is_one(graph, gap))
         return CREASE_OK;
-    crease_edge edge = crease_edge_between(gap->regions[0], gap->regions[1]);
-    edge.smooth = edge.loose = !crossed;
-    memcpy(edge.vertices, gap->vertices, sizeof edge.vertices);
-    crease_status status = lay(graph, gap, &edge);
-    if (status == CREASE_OK && !(crossed && crease_edge_is_wild(&edge)))
+    out->smooth = out->loose = !crossed;
+    memcpy(out->vertices, gap->vertices, sizeof out->vertices);
+    const crease_status status = lay(graph, gap, out);
+    *found = status == CREASE_OK && !(crossed && crease_edge_is_wild(out));
+    if (!*found)
+        crease_edge_clear(out);
+    return status;
+}
+
+crease_status crease_bridge_lay(crease_graph *graph, const uint32_t regions[2],
+    const int32_t vertices[2], crease_edge *out, bool *found)
+{
+    const crease_vertex *const v = graph->topology->vertices;
+    const struct gap gap = {{vertices[0], vertices[1]}, {regions[0], regions[1]},
+        crease_vector_distance(v[vertices[0]].place, v[vertices[1]].place)};
+    return make(graph, &gap, out, found);
+}
+
+static crease_status bridge(crease_graph *graph, const struct gap *gap)
+{
+    crease_edge edge;
+    bool found;
+    if (!is_open(graph, gap))
+        return CREASE_OK;
+    crease_status status = make(graph, gap, &edge, &found);
+    if (found)
         status =
             is_there(graph, &edge) ? retract_leaves(graph, gap) : crease_graph_take(graph, &edge);
     crease_edge_clear(&edge);

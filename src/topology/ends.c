@@ -18,16 +18,55 @@ static const double AHEAD = 0.1;
 static const double SAME = 0.02;
 static const double SPREAD_REACH = 3.0;
 static const double CLOSE = 0.05; /* surfaces that meet */
+static const double APART = 1.0;  /* surfaces side by side that do not meet */
+
+static const double ALIKE = 0.95; /* cosine between the normals of such */
 
 /* ------------------------------------------------------------------------------- joining -- */
 
-static int32_t nearest_vertex(const crease_topology *t, const double place[3], int32_t other)
+/* Whether the surfaces of two regions run side by side at a place, as those of two bores around one
+ * axis do: no edge of theirs begins there. */
+static bool are_apart(const crease_graph *graph, uint32_t a, uint32_t b, const double place[3])
 {
+    double first[3], second[3];
+    const double d = crease_graph_distance(graph, a, place, first);
+    const double e = crease_graph_distance(graph, b, place, second);
+    const double along = crease_vector_dot(first, second);
+    return fabs(along) > ALIKE &&
+        fabs(along > 0.0 ? d - e : d + e) > APART * graph->survey->spacing;
+}
+
+/* Whether the rims of a narrow ring end there: they have one region in common, and the others are
+ * apart. */
+static bool is_beside(
+    const crease_graph *graph, const crease_edge *a, const crease_edge *b, const double place[3])
+{
+    uint32_t regions[3];
+    return crease_edge_common(a->regions, b->regions, regions) &&
+        are_apart(graph, regions[1], regions[2], place);
+}
+
+static bool is_of_another_rim(const crease_graph *graph, const crease_edge *edge, int32_t vertex)
+{
+    const crease_topology *const t = graph->topology;
+    if (crease_graph_ends(graph, vertex, -1) != 1)
+        return false;
+    for (size_t e = 0; e < t->edge_count; e++)
+        if ((t->edges[e].vertices[0] == vertex || t->edges[e].vertices[1] == vertex) &&
+            is_beside(graph, edge, &t->edges[e], t->vertices[vertex].place))
+            return true;
+    return false;
+}
+
+static int32_t nearest_vertex(
+    const crease_graph *graph, const crease_edge *edge, const double place[3], int32_t other)
+{
+    const crease_topology *const t = graph->topology;
     int32_t nearest = CREASE_NO_VERTEX;
     double least = JOIN_REACH * t->spacing;
     for (size_t v = 0; v < t->vertex_count; v++) {
         const double away = crease_vector_distance(t->vertices[v].place, place);
-        if ((int32_t)v != other && away < least) {
+        if ((int32_t)v != other && away < least && !is_of_another_rim(graph, edge, (int32_t)v)) {
             least = away;
             nearest = (int32_t)v;
         }
@@ -60,7 +99,8 @@ static void join_lonely(const crease_graph *graph)
             const crease_edge *const a = only_edge(graph, (int32_t)v);
             crease_edge *const b = only_edge(graph, (int32_t)w);
             uint32_t regions[3];
-            if (!a || !b || a == b || !crease_edge_common(a->regions, b->regions, regions))
+            if (!a || !b || a == b || !crease_edge_common(a->regions, b->regions, regions) ||
+                are_apart(graph, regions[1], regions[2], place))
                 continue;
             b->vertices[b->vertices[1] == (int32_t)w] = (int32_t)v;
             for (int c = 0; c < 3; c++)
@@ -78,7 +118,7 @@ crease_status crease_ends_join(crease_graph *graph)
             const double *const tip = edge->points + (w ? 3 * (edge->count - 1) : 0);
             if (edge->vertices[w] != CREASE_NO_VERTEX)
                 continue;
-            edge->vertices[w] = nearest_vertex(t, tip, edge->vertices[1 - w]);
+            edge->vertices[w] = nearest_vertex(graph, edge, tip, edge->vertices[1 - w]);
             if (edge->vertices[w] == CREASE_NO_VERTEX)
                 status = crease_graph_vertex(graph, tip, &edge->vertices[w]);
         }

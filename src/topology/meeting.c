@@ -4,6 +4,7 @@
 #include "topology/meeting.h"
 
 #include "base/vector.h"
+#include "crease/intersect.h"
 
 #include <math.h>
 
@@ -13,6 +14,8 @@ static const double KNOWN = 3.0;    /* from a corner that the three regions have
 static const double GAP = 10.0;     /* between vertices around a hole in the points, at most, ... */
 static const double MOVE = 4.0;     /* from their middle to the corner, ... */
 static const double APART = 1.0;    /* and from there to each surface */
+
+static const double CLOSE = 0.3; /* surfaces that cut or touch each other */
 
 enum { ROUNDS = 20 };
 
@@ -93,4 +96,19 @@ bool crease_meeting_in_hole(const crease_graph *graph, const int32_t vertices[3]
         most = fmax(most, fabs(crease_graph_distance(graph, regions[i], place, gradient)));
     return most < APART * s && crease_vector_distance(place, middle) < MOVE * s &&
         !is_known(graph, regions, place);
+}
+
+double crease_meeting_in_shadow(const crease_graph *graph, int32_t vertex,
+    const uint32_t regions[3], double reach, double place[3])
+{
+    const double *const from = graph->topology->vertices[vertex].place;
+    const crease_model *models[3];
+    for (int i = 0; i < 3; i++) {
+        models[i] = &graph->survey->regions->models[regions[i]];
+        place[i] = from[i];
+    }
+    if (!crease_intersection_meet(models, 3, reach, CLOSE * graph->survey->spacing, place) ||
+        is_known(graph, regions, place))
+        return INFINITY;
+    return crease_vector_distance(from, place);
 }

@@ -17,5 +17,9 @@ double crease_meeting_find(const crease_graph *graph, const crease_links *links,
  * from each other, or the surfaces from the place. */
 bool crease_meeting_in_hole(const crease_graph *graph, const int32_t vertices[3],
     const uint32_t regions[3], double place[3]);
+/* Where the surfaces of three regions cut each other, looked for from a vertex. Returns how far
+ * that is: INFINITY where they do not, or have a vertex already, or it is farther than `reach`. */
+double crease_meeting_in_shadow(const crease_graph *graph, int32_t vertex,
+    const uint32_t regions[3], double reach, double place[3]);
 
 #endif

@@ -5,6 +5,8 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
+#include "topology/bridge.h"
+#include "topology/cycle.h"
 #include "topology/meeting.h"
 #include "topology/trail.h"
 
@@ -12,61 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    MOST_SIDES = 6,    /* of a cycle */
-    MOST_TRIALS = 4000 /* cycles looked at */
-};
-
 /* In spacings. */
 static const double SAME = 2.5; /* a corner and a vertex that is taken for it */
 
-/* A vertex that lacks an edge of exactly two regions. */
-struct end {
-    int32_t vertex;
-    uint32_t regions[2]; /* ascending */
-};
-
-struct ends {
-    size_t count;
-    struct end *items;
-};
-
-/* ---------------------------------------------------------------------------------- ends -- */
-
-/* The regions that lack an edge at a vertex; at most `most`. */
-static size_t odd_regions(const crease_graph *graph, int32_t vertex, size_t most, uint32_t *out)
-{
-    const crease_topology *const t = graph->topology;
-    size_t count = 0;
-    for (size_t e = 0; e < t->edge_count; e++)
-        for (int i = 0; i < 2; i++) {
-            const uint32_t region = t->edges[e].regions[i];
-            size_t k = 0;
-            if (t->edges[e].vertices[0] != vertex && t->edges[e].vertices[1] != vertex)
-                continue;
-            while (k < count && out[k] != region)
-                k++;
-            if (k == count && count < most && crease_graph_odd(graph, vertex, region))
-                out[count++] = region;
-        }
-    return count;
-}
-
-static crease_status list_ends(const crease_graph *graph, struct ends *out)
-{
-    const size_t vertices = graph->topology->vertex_count;
-    *out = (struct ends){.items = crease_allocate(graph->context, vertices, sizeof *out->items)};
-    if (!out->items)
-        return CREASE_ERROR_NO_MEMORY;
-    for (size_t v = 0; v < vertices; v++) {
-        uint32_t odd[3];
-        if (odd_regions(graph, (int32_t)v, 3, odd) != 2)
-            continue;
-        const uint32_t low = odd[0] < odd[1] ? odd[0] : odd[1];
-        out->items[out->count++] = (struct end){(int32_t)v, {low, odd[0] + odd[1] - low}};
-    }
-    return CREASE_OK;
-}
+static const double FAR = 2.0; /* a corner in shadow from an end, in distances between the ends */
 
 /* --------------------------------------------------------------------------------- cycles -- */
 
@@ -76,36 +27,70 @@ static crease_status list_ends(const crease_graph *graph, struct ends *out)
  * side of the polygon an end leads to the corner, and where two triangles meet an edge runs from
  * one corner to the other. Of all ways to cut the polygon that one is taken whose corners the
  * points show best. */
-struct cycle {
-    int count;
-    const struct end *ends[MOST_SIDES];
-    uint32_t regions[MOST_SIDES];
-    double costs[MOST_SIDES][MOST_SIDES];     /* of the polygon from one region to another one */
-    int middles[MOST_SIDES][MOST_SIDES];      /* third of the triangle on that diagonal */
-    double places[MOST_SIDES][MOST_SIDES][3]; /* of its corner */
+struct polygon {
+    const crease_cycle *cycle;
+    double costs[CREASE_MOST_SIDES][CREASE_MOST_SIDES]; /* of the polygon from one region to
+                                                           another one */
+    int middles[CREASE_MOST_SIDES][CREASE_MOST_SIDES];  /* third of the triangle on that diagonal */
+    double places[CREASE_MOST_SIDES][CREASE_MOST_SIDES][3]; /* of its corner */
 };
 
 struct finding {
     crease_graph *graph;
     const crease_links *links;
-    const struct ends *ends;
-    size_t trials;
-    crease_edge edges[2 * MOST_SIDES];
+    bool in_shadow; /* whether surfaces alone may tell where corners and edges are */
+    crease_edge edges[2 * CREASE_MOST_SIDES];
     int edge_count;
 };
 
-static bool is_still_odd(const crease_graph *graph, const struct end *end)
+/* How far apart the ends are. */
+static double width_of(const struct finding *run, const crease_cycle *cycle)
 {
-    return crease_graph_odd(graph, end->vertex, end->regions[0]) &&
-        crease_graph_odd(graph, end->vertex, end->regions[1]);
+    const crease_vertex *const v = run->graph->topology->vertices;
+    double most = 0.0;
+    for (int i = 0; i < cycle->count; i++)
+        for (int k = 0; k < i; k++)
+            most = fmax(most,
+                crease_vector_distance(
+                    v[cycle->ends[i]->vertex].place, v[cycle->ends[k]->vertex].place));
+    return most;
+}
+
+/* The same where no points show the corner, as in the shadow of a scan: from the ends of the cycle
+ * that lead there. */
+static double cost_in_shadow(
+    const struct finding *run, const crease_cycle *cycle, const int at[3], double place[3])
+{
+    const uint32_t regions[3] = {
+        cycle->regions[at[0]], cycle->regions[at[1]], cycle->regions[at[2]]};
+    const double reach = FAR * width_of(run, cycle);
+    double least = INFINITY;
+    for (int i = 0; i < cycle->count; i++) {
+        double there[3];
+        int common = 0;
+        for (int k = 0; k < 3; k++)
+            common += regions[k] == cycle->ends[i]->regions[0] ||
+                regions[k] == cycle->ends[i]->regions[1];
+        if (common < 2)
+            continue;
+        const double cost =
+            crease_meeting_in_shadow(run->graph, cycle->ends[i]->vertex, regions, reach, there);
+        if (cost < least) {
+            least = cost;
+            memcpy(place, there, sizeof there);
+        }
+    }
+    return least;
 }
 
 /* How far the links of three regions of the cycle are from a corner of theirs. */
 static double cost_of_corner(
-    const struct finding *run, const struct cycle *cycle, const int at[3], double place[3])
+    const struct finding *run, const crease_cycle *cycle, const int at[3], double place[3])
 {
     uint32_t regions[3];
     int32_t vertices[3];
+    if (run->in_shadow)
+        return cost_in_shadow(run, cycle, at, place);
     for (int i = 0; i < 3; i++) {
         regions[i] = cycle->regions[at[i]];
         vertices[i] = cycle->ends[i]->vertex;
@@ -120,27 +105,28 @@ static double cost_of_corner(
 /* Cuts the polygon into triangles, smaller parts first.
  *
  * Based on: Klincsek. Minimal triangulations of polygonal domains. 1980. */
-static bool cut(const struct finding *run, struct cycle *cycle)
+static bool cut(const struct finding *run, struct polygon *polygon)
 {
+    const crease_cycle *const cycle = polygon->cycle;
     for (int width = 1; width < cycle->count; width++)
         for (int low = 0; low + width < cycle->count; low++) {
             const int high = low + width;
-            cycle->costs[low][high] = width == 1 ? 0.0 : INFINITY;
+            polygon->costs[low][high] = width == 1 ? 0.0 : INFINITY;
             for (int middle = low + 1; middle < high; middle++) {
-                const double parts = cycle->costs[low][middle] + cycle->costs[middle][high];
+                const double parts = polygon->costs[low][middle] + polygon->costs[middle][high];
                 double place[3] = {0.0};
-                if (!(parts < cycle->costs[low][high]))
+                if (!(parts < polygon->costs[low][high]))
                     continue;
                 const double cost =
                     parts + cost_of_corner(run, cycle, (const int[]){low, middle, high}, place);
-                if (!(cost < cycle->costs[low][high]))
+                if (!(cost < polygon->costs[low][high]))
                     continue;
-                cycle->costs[low][high] = cost;
-                cycle->middles[low][high] = middle;
-                memcpy(cycle->places[low][high], place, sizeof place);
+                polygon->costs[low][high] = cost;
+                polygon->middles[low][high] = middle;
+                memcpy(polygon->places[low][high], place, sizeof place);
             }
         }
-    return cycle->costs[0][cycle->count - 1] < INFINITY;
+    return polygon->costs[0][cycle->count - 1] < INFINITY;
 }
 
 /* -------------------------------------------------------------------------------- corners -- */
@@ -156,7 +142,7 @@ static void keep_nearer(
 }
 
 /* The vertex beside a corner: that of an end, of the corner before it, or a new one. */
-static crease_status corner_vertex(crease_graph *graph, const struct cycle *cycle, int32_t before,
+static crease_status corner_vertex(crease_graph *graph, const crease_cycle *cycle, int32_t before,
     const double place[3], int32_t *out)
 {
     double least = SAME * graph->survey->spacing;
@@ -169,7 +155,7 @@ static crease_status corner_vertex(crease_graph *graph, const struct cycle *cycl
 }
 
 /* Lays an edge between two regions of the cycle. */
-static crease_status lay(struct finding *run, const struct cycle *cycle, int low, int high,
+static crease_status lay(struct finding *run, const crease_cycle *cycle, int low, int high,
     const int32_t vertices[2], bool *found)
 {
     const uint32_t a = cycle->regions[low], b = cycle->regions[high];
@@ -178,6 +164,9 @@ static crease_status lay(struct finding *run, const struct cycle *cycle, int low
     crease_status status = CREASE_OK;
     if (vertices[0] == vertices[1])
         return CREASE_OK;
+    if (run->in_shadow)
+        return crease_bridge_lay(
+            run->graph, loose.regions, vertices, &run->edges[run->edge_count++], found);
     if (crease_links_between(run->links, loose.regions, part))
         status = crease_loose_find(run->graph, run->links, part[0], part[1], &loose);
     if (status == CREASE_OK)
@@ -190,30 +179,32 @@ static crease_status lay(struct finding *run, const struct cycle *cycle, int low
 /* Lays the edge across the side low, high of a triangle whose corner is `inner`, then those of the
  * triangle beyond. */
 static crease_status lay_from(
-    struct finding *run, struct cycle *cycle, int low, int high, int32_t inner, bool *found)
+    struct finding *run, struct polygon *polygon, int low, int high, int32_t inner, bool *found)
 {
+    const crease_cycle *const cycle = polygon->cycle;
     if (high == low + 1)
         return lay(run, cycle, low, high, (int32_t[]){cycle->ends[low]->vertex, inner}, found);
     int32_t corner;
     crease_status status =
-        corner_vertex(run->graph, cycle, inner, cycle->places[low][high], &corner);
+        corner_vertex(run->graph, cycle, inner, polygon->places[low][high], &corner);
     const int32_t from = inner != CREASE_NO_VERTEX ? inner : cycle->ends[high]->vertex;
     if (status == CREASE_OK)
         status = lay(run, cycle, low, high, (int32_t[]){from, corner}, found);
-    const int middle = cycle->middles[low][high];
+    const int middle = polygon->middles[low][high];
     if (status == CREASE_OK && *found)
-        status = lay_from(run, cycle, low, middle, corner, found);
+        status = lay_from(run, polygon, low, middle, corner, found);
     if (status == CREASE_OK && *found)
-        status = lay_from(run, cycle, middle, high, corner, found);
+        status = lay_from(run, polygon, middle, high, corner, found);
     return status;
 }
 
 /* Adds the edges of the cycle, all or none of them. */
-static crease_status join(struct finding *run, struct cycle *cycle)
+static crease_status join(struct finding *run, struct polygon *polygon)
 {
+    const crease_cycle *const cycle = polygon->cycle;
     bool all = true;
     run->edge_count = 0;
-    crease_status status = lay_from(run, cycle, 0, cycle->count - 1, CREASE_NO_VERTEX, &all);
+    crease_status status = lay_from(run, polygon, 0, cycle->count - 1, CREASE_NO_VERTEX, &all);
     for (int i = 0; i < run->edge_count; i++) {
         if (all && status == CREASE_OK)
             status = crease_graph_take(run->graph, &run->edges[i]);
@@ -224,61 +215,17 @@ static crease_status join(struct finding *run, struct cycle *cycle)
 
 /* ---------------------------------------------------------------------------------- search -- */
 
-static bool has_region(const struct cycle *cycle, int known, uint32_t region)
+static crease_status fill(void *user, const crease_cycle *cycle)
 {
-    for (int i = 0; i < known; i++)
-        if (cycle->regions[i] == region)
-            return true;
-    return false;
-}
-
-/* Goes on with every end that leads from the last region of the cycle to a new one, or, for its
- * last side, back to the first. */
-static crease_status extend(struct finding *run, struct cycle *cycle, int sides)
-{
-    const uint32_t from = cycle->regions[sides];
-    const bool closing = sides + 1 == cycle->count || sides + 1 == MOST_SIDES;
-    crease_status status = CREASE_OK;
-    for (const struct end *end = cycle->ends[0] + 1;
-         end < run->ends->items + run->ends->count && status == CREASE_OK; end++) {
-        if (end->regions[0] != from && end->regions[1] != from)
-            continue;
-        const uint32_t to = end->regions[0] == from ? end->regions[1] : end->regions[0];
-        if (closing ? to != cycle->regions[0] : has_region(cycle, sides, to))
-            continue;
-        if (run->trials++ >= MOST_TRIALS || !is_still_odd(run->graph, cycle->ends[0]))
-            break;
-        cycle->ends[sides] = end;
-        if (!is_still_odd(run->graph, end))
-            continue;
-        if (!closing) {
-            cycle->regions[sides + 1] = to;
-            status = extend(run, cycle, sides + 1);
-        } else if (cut(run, cycle))
-            status = join(run, cycle);
-    }
-    return status;
-}
-
-static crease_status try_cycles(struct finding *run, int count)
-{
-    crease_status status = CREASE_OK;
-    for (size_t i = 0; i < run->ends->count && status == CREASE_OK; i++) {
-        const struct end *const first = &run->ends->items[i];
-        struct cycle cycle = {
-            .count = count, .ends = {first}, .regions = {first->regions[0], first->regions[1]}};
-        status = extend(run, &cycle, 1);
-    }
-    return status;
+    struct finding *const run = user;
+    struct polygon polygon = {.cycle = cycle};
+    return cut(run, &polygon) ? join(run, &polygon) : CREASE_OK;
 }
 
 crease_status crease_missing_find(crease_graph *graph, const crease_links *links)
 {
-    struct ends ends;
-    crease_status status = list_ends(graph, &ends);
-    struct finding run = {.graph = graph, .links = links, .ends = &ends};
-    for (int count = 3; count <= MOST_SIDES && status == CREASE_OK; count++)
-        status = try_cycles(&run, count);
-    free(ends.items);
-    return status;
+    struct finding run = {.graph = graph, .links = links};
+    crease_status status = crease_cycles_visit(graph, fill, &run);
+    run.in_shadow = true;
+    return status == CREASE_OK ? crease_cycles_visit(graph, fill, &run) : status;
 }

@@ -284,6 +284,22 @@ static void given_rim_in_pieces_when_found_then_one_edge_goes_round(void **state
     end_world(&w);
 }
 
+static bool in_light(const double *p, int32_t label)
+{
+    return label != 6 || p[2] < 0 || fabs(atan2(p[1], p[0]) - 1) < 1;
+}
+
+/* Beside most of its upper rim the wall of the bore is in shadow. */
+static void given_third_of_a_rim_when_found_then_it_goes_round(void **state)
+{
+    given_body block;
+    const given_points points = keep(given_bore(&block), in_light);
+    world w = world_of_points(&block, points, S / 2, 0);
+    check_counts(w.topology, 10, 14, 7);
+    check_points(&w, 1e-9);
+    end_world(&w);
+}
+
 /* ------------------------------------------------------------------------ smooth joints -- */
 
 static bool not_on_top(const double *p, int32_t label)
@@ -528,6 +544,22 @@ static void given_corner_without_points_when_found_then_it_is_where_edges_meet(v
     end_world(&w);
 }
 
+static bool off_two_edges(const double *p, int32_t label)
+{
+    return p[0] < 0.2 || (p[1] < 0.2 && p[2] < 0.2);
+}
+
+/* Of the three edges of a corner two have no points at all, and the third ends before it. */
+static void given_two_edges_without_points_when_found_then_surfaces_tell(void **state)
+{
+    const given_body box = given_box(0.5, 0.5, 0.5);
+    const given_points points = keep(given_sample(&box, S, 0, 5), off_two_edges);
+    world w = world_of_points(&box, points, S, 0);
+    check_counts(w.topology, 8, 12, 6);
+    check_points(&w, 1e-9);
+    end_world(&w);
+}
+
 static bool off_edge(const double *p, int32_t label)
 {
     return p[0] < 0.2 || p[1] < 0.2;
@@ -753,6 +785,7 @@ int main(void)
         cmocka_unit_test(given_whole_torus_when_found_then_one_face_without_edges),
         cmocka_unit_test(given_bored_block_when_found_then_top_and_bottom_have_a_hole),
         cmocka_unit_test(given_rim_in_pieces_when_found_then_one_edge_goes_round),
+        cmocka_unit_test(given_third_of_a_rim_when_found_then_it_goes_round),
         cmocka_unit_test(given_dome_when_found_then_a_smooth_ring_joins_rod_and_sphere),
         cmocka_unit_test(given_filleted_box_when_found_then_smooth_edges_beside_the_fillet),
         cmocka_unit_test(given_face_in_two_pieces_when_found_then_the_points_say_where_it_parts),
@@ -762,6 +795,7 @@ int main(void)
             given_face_in_four_or_five_pieces_when_found_then_edges_join_their_corners),
         cmocka_unit_test(given_pieces_around_a_hole_when_found_then_they_meet_in_it),
         cmocka_unit_test(given_corner_without_points_when_found_then_it_is_where_edges_meet),
+        cmocka_unit_test(given_two_edges_without_points_when_found_then_surfaces_tell),
         cmocka_unit_test(given_edge_without_points_when_found_then_it_is_bridged),
         cmocka_unit_test(given_few_points_in_a_bay_when_found_then_no_edge_is_there_twice),
         cmocka_unit_test(given_steps_that_go_back_when_looked_at_then_the_edge_is_wild),
