@@ -235,6 +235,20 @@ static void tell_snaps(const report *r, const result *all)
             counts[CREASE_SNAP_SYMMETRIC]);
 }
 
+/* What is in the model besides the regions as found. */
+static void tell_changes(report *r, const result *all)
+{
+    const size_t unseen = crease_part_unseen_count(all->part);
+    if (unseen > 0)
+        report_line(r,
+            unseen == 1 ? "1 face that no point shows is where its neighbours end"
+                        : "%zu faces that no point shows are where their neighbours end",
+            unseen);
+    else if (regions_of(all) != all->regions)
+        report_line(
+            r, "regions that join without an angle were united: as found they do not close");
+}
+
 static void describe(report *r, result *all)
 {
     static const char *const states[] = {"solid", "shell", "faces"};
@@ -249,7 +263,9 @@ static void describe(report *r, result *all)
     cJSON_AddStringToObject(object, "why", why);
     cJSON_AddNumberToObject(object, "solids", (double)solids);
     cJSON_AddNumberToObject(object, "volume", volume);
-    cJSON_AddBoolToObject(object, "united", regions_of(all) != all->regions);
+    cJSON_AddBoolToObject(object, "united",
+        regions_of(all) != all->regions && crease_part_unseen_count(all->part) == 0);
+    cJSON_AddNumberToObject(object, "unseen", (double)crease_part_unseen_count(all->part));
     cJSON_AddNumberToObject(r->root, "noise", crease_regions_sigma(regions_of(all)));
     deviation_describe(cJSON_AddObjectToObject(r->root, "deviation"), d);
     describe_lists(r, all);
@@ -261,9 +277,7 @@ static void describe(report *r, result *all)
         report_line(r, "a closed, valid solid, volume %.6g%s%s", volume, *why ? "; but " : "", why);
     else
         report_line(r, "%s", why);
-    if (regions_of(all) != all->regions)
-        report_line(
-            r, "regions that join without an angle were united: as found they do not close");
+    tell_changes(r, all);
     describe_kinds(r, all);
     tell_snaps(r, all);
     report_line(r, "deviation: rms %.4g, 95 %% below %.4g, max %.4g; noise %.2g", d.rms, d.p95,

@@ -161,9 +161,13 @@ CREASE_API size_t crease_part_solid_count(const crease_part *part);
 /** The volume of all solids; 0 unless the part is solid. */
 CREASE_API double crease_part_volume(const crease_part *part);
 /** The regions by whose numbers the faces call theirs: those given, or, when these leave faces open
- * and regions that join without an angle close once they are united, such ones; they belong to the
- * part. The given ones must live as long as they are asked for here. */
+ * and regions that join without an angle close once they are united, such ones, or those with
+ * planes that no point shows; they belong to the part. The given ones must live as long as they are
+ * asked for here. */
 CREASE_API const crease_regions *crease_part_regions(const crease_part *part);
+/** How many of these regions, the last ones, are planes of faces that no point shows, as a wall in
+ * the shadow of a scan: their neighbours say where they are. O(1). */
+CREASE_API size_t crease_part_unseen_count(const crease_part *part);
 CREASE_API size_t crease_part_face_count(const crease_part *part);
 /** Face number index, below the count. */
 CREASE_API crease_part_face crease_part_face_at(const crease_part *part, size_t index);

@@ -423,6 +423,7 @@ CAD_FUNCTIONS: dict[str, tuple[Any, ...]] = {
     "crease_part_solid_count": (c_size_t, _object),
     "crease_part_volume": (c_double, _object),
     "crease_part_regions": (_object, _object),
+    "crease_part_unseen_count": (c_size_t, _object),
     "crease_part_face_count": (c_size_t, _object),
     "crease_part_face_at": (PartFace, _object, c_size_t),
     "crease_part_edge_count": (c_size_t, _object),

@@ -4,6 +4,7 @@
 #include "cad/judge.hpp"
 
 #include "cad/kernel.hpp"
+#include "topology/complete.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,13 @@ static size_t lost_of(const Job &job, const Judged &judged)
     return lost;
 }
 
+/* Whether a face is one that no point is known to show. */
+static bool is_unseen(const Job &job, const FaceFact &face)
+{
+    const size_t count = crease_regions_count(job.regions);
+    return job.carriers[face.carrier].region >= count - crease_regions_unseen(job.regions);
+}
+
 /* A face half covered is taken for covered: scans have shadows. */
 static double loss_of(const Job &job, const Judged &judged)
 {
@@ -72,7 +80,8 @@ static double loss_of(const Job &job, const Judged &judged)
             support[(size_t)judged.nearest[i]] += area;
     }
     for (size_t f = 0; f < support.size(); f++)
-        bare += std::max(0.0, judged.outcome.faces[f].area - 2.0 * support[f]);
+        if (!is_unseen(job, judged.outcome.faces[f]))
+            bare += std::max(0.0, judged.outcome.faces[f].area - 2.0 * support[f]);
     return (missed + bare) / total;
 }
 

@@ -5,6 +5,7 @@
 #include "cad/format.hpp"
 #include "cad/kernel.hpp"
 #include "cad/search.hpp"
+#include "topology/complete.h"
 
 #include <algorithm>
 #include <memory>
@@ -18,7 +19,7 @@ struct crease_part {
     std::vector<crease_part_edge> edges;
     std::vector<crease_curve *> curves;
     const crease_regions *regions;
-    std::unique_ptr<crease_regions, crease_cad::RegionsFree> coarser; /* where regions are these */
+    std::unique_ptr<crease_regions, crease_cad::RegionsFree> own; /* where regions are these */
 };
 
 crease_part::~crease_part()
@@ -90,7 +91,9 @@ static std::unique_ptr<crease_part> part_of(Search &search)
     part->judged = std::move(*search.best);
     part->regions = search.job->regions;
     if (search.job == search.coarser.get())
-        part->coarser = std::move(search.coarser_regions);
+        part->own = std::move(search.coarser_regions);
+    if (search.job == search.complete.get())
+        part->own = std::move(search.complete_regions);
     if (!is_true_solid(part->judged)) {
         part->judged.outcome.summary.volume = 0.0;
         part->judged.outcome.summary.solids = 0;
@@ -127,8 +130,8 @@ crease_status crease_part_build(crease_context *context, const crease_cloud *clo
     return guard(context, "part", [&] {
         check(cloud, regions);
         const Job job(context, cloud, regions, network, options && options->open);
-        Search search = {context, cloud, job, options && options->bspline_faces, {}, {}, nullptr,
-            {}, "", false, false, 0.0};
+        Search search = {context, cloud, job, options && options->bspline_faces, {}, {}, {}, {},
+            nullptr, {}, "", false, false, 0.0};
         search_best(search);
         *out = part_of(search).release();
     });
@@ -162,6 +165,11 @@ double crease_part_volume(const crease_part *part)
 const crease_regions *crease_part_regions(const crease_part *part)
 {
     return part->regions;
+}
+
+size_t crease_part_unseen_count(const crease_part *part)
+{
+    return crease_regions_unseen(part->regions);
 }
 
 size_t crease_part_face_count(const crease_part *part)

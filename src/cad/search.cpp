@@ -8,6 +8,7 @@
 #include "cad/kernel.hpp"
 #include "cad/ways.hpp"
 #include "snap/coarser.h"
+#include "topology/complete.h"
 
 #include <algorithm>
 #include <sys/resource.h>
@@ -22,8 +23,8 @@ static constexpr double GOOD_LOSS = 0.04; /* of a result: no other way is tried 
 
 /* Regions that join smoothly may be united where nothing closed before: soon where some are free
  * forms, which may be pieces of one; else after the surfaces have been intersected, which is quick.
- */
-enum Coarser { AS_GIVEN, FORMS_UNITED, PRIMITIVES_UNITED };
+ * Planes may be added for faces that no point shows, but their neighbours. */
+enum Variant { AS_GIVEN, COMPLETED, FORMS_UNITED, PRIMITIVES_UNITED };
 
 /* A way with its margin: the larger of a part of the diagonal and some spacings. */
 struct Step {
@@ -31,11 +32,12 @@ struct Step {
     double diagonals, spacings;
     bool for_solid;
     bool for_open; /* it is tried when the points end at a border */
-    Coarser coarser;
+    Variant variant;
 };
 
 static constexpr Step steps[] = {
     {follow_topology, 0.0, 0.0, true, true, AS_GIVEN},
+    {follow_topology, 0.0, 0.0, true, false, COMPLETED},
     {follow_topology, 0.0, 0.0, true, false, FORMS_UNITED},
     {arrange_solid, 0.03, 1.8, true, false, AS_GIVEN},
     {arrange_solid, 0.06, 3.6, true, false, AS_GIVEN},
@@ -110,6 +112,41 @@ static const Job *coarser_job(Search &search)
     return search.coarser.get();
 }
 
+/* Null when the neighbours of no unseen face determine it. */
+static const Job *complete_job(Search &search)
+{
+    if (search.complete)
+        return search.complete.get();
+    crease_regions *found = nullptr;
+    require(crease_regions_find_complete(
+        search.context, search.cloud, search.given.regions, &search.given.topology(), &found));
+    search.complete_regions.reset(found);
+    if (found)
+        search.complete = std::make_unique<const Job>(
+            search.context, search.cloud, found, search.given.network, search.given.bordered);
+    return search.complete.get();
+}
+
+static Variant turn_of(const crease_regions &regions)
+{
+    for (size_t i = 0; i < crease_regions_count(&regions); i++)
+        if (crease_regions_at(&regions, i).type == CREASE_REGION_FREEFORM)
+            return FORMS_UNITED;
+    return PRIMITIVES_UNITED;
+}
+
+/* Null where there is none, or a solid is there without it. */
+static const Job *job_of(Search &search, const Step &step)
+{
+    if (step.variant == AS_GIVEN)
+        return &search.given;
+    if (search.best && is_true_solid(*search.best))
+        return nullptr;
+    if (step.variant == COMPLETED)
+        return complete_job(search);
+    return step.variant == turn_of(*search.given.regions) ? coarser_job(search) : nullptr;
+}
+
 /* Whether something came out. */
 static bool attempt(Search &search, const Step &step, const Job &job)
 {
@@ -146,14 +183,6 @@ static bool is_enough(const Search &search, const Step &next)
     return !next.for_solid || (search.best->loss < GOOD_LOSS && search.best->lost == 0);
 }
 
-static Coarser turn_of(const crease_regions &regions)
-{
-    for (size_t i = 0; i < crease_regions_count(&regions); i++)
-        if (crease_regions_at(&regions, i).type == CREASE_REGION_FREEFORM)
-            return FORMS_UNITED;
-    return PRIMITIVES_UNITED;
-}
-
 /* Points that end at a border have no other shell. */
 static bool is_too_much(const Search &search, const Step &step)
 {
@@ -172,14 +201,10 @@ void search_best(Search &search)
             continue;
         if (is_arrangement(step) && is_too_much(search, step))
             continue;
-        if (step.coarser &&
-            (step.coarser != turn_of(*search.given.regions) ||
-                (search.best && is_true_solid(*search.best))))
-            continue;
         if (!step.for_solid && search.best && search.best->state == CREASE_PART_SHELL &&
             search.best->loss < GOOD_LOSS)
             break;
-        if (const Job *const job = step.coarser ? coarser_job(search) : &search.given)
+        if (const Job *const job = job_of(search, step))
             made = attempt(search, step, *job);
     }
     if (!search.best)

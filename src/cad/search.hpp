@@ -31,7 +31,9 @@ struct Search {
     bool as_bsplines;
     std::unique_ptr<crease_regions, RegionsFree> coarser_regions;
     std::unique_ptr<const Job> coarser; /* with these */
-    const Job *job;                     /* of the best */
+    std::unique_ptr<crease_regions, RegionsFree> complete_regions;
+    std::unique_ptr<const Job> complete; /* with these */
+    const Job *job;                      /* of the best */
     std::optional<Judged> best;
     std::string why_no_solid;
     bool spent;       /* an arrangement was too much work; with a larger margin it is even more */

@@ -30,6 +30,7 @@ struct crease_regions {
     uint8_t *rounded; /* points on edges that the scanner has rounded, see noise/blur.h;
                          NULL where it has not */
     size_t region_count;
+    size_t unseen_count;      /* of these, the last ones: planes that no point shows */
     crease_model *models;     /* region_count */
     size_t *sizes;            /* points of each region */
     double *rms;              /* of the distances of a region's points from its model */

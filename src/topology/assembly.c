@@ -20,6 +20,7 @@
 #include "topology/seam.h"
 #include "topology/tangency.h"
 #include "topology/turn.h"
+#include "topology/unseen.h"
 
 #include <stdlib.h>
 
@@ -41,6 +42,26 @@ static crease_status trace(
     return status;
 }
 
+/* Finds the faces that no point shows; edges run around those that are regions already. */
+static crease_status find_unseen(crease_graph *graph)
+{
+    crease_topology *const t = graph->topology;
+    const crease_regions *const r = graph->survey->regions;
+    crease_unseens unseens;
+    crease_status status = crease_unseens_find(graph, &unseens);
+    t->unseen = crease_allocate(graph->context, unseens.count, sizeof *t->unseen);
+    if (status == CREASE_OK && !t->unseen)
+        status = CREASE_ERROR_NO_MEMORY;
+    for (size_t i = 0; i < unseens.count && status == CREASE_OK; i++) {
+        t->unseen[t->unseen_count++] = unseens.items[i].plane;
+        if (i < r->unseen_count)
+            status = crease_unseen_border(
+                graph, &unseens.items[i], (uint32_t)(r->region_count - r->unseen_count + i));
+    }
+    crease_unseens_clear(&unseens);
+    return status;
+}
+
 /* What closes the faces where creases and seams do not. */
 static crease_status close_gaps(crease_graph *graph, const crease_links *links, bool bordered)
 {
@@ -54,6 +75,8 @@ static crease_status close_gaps(crease_graph *graph, const crease_links *links, 
         status = crease_laps_close(graph);
     if (status == CREASE_OK)
         status = crease_missing_find(graph, links);
+    if (status == CREASE_OK)
+        status = find_unseen(graph);
     return status == CREASE_OK ? crease_seams_relax(graph) : status;
 }
 

@@ -41,23 +41,24 @@ static size_t odd_regions(const crease_graph *graph, int32_t vertex, size_t most
     return count;
 }
 
-static crease_status list_ends(const crease_graph *graph, struct ends *out)
+crease_status crease_ends_list(const crease_graph *graph, crease_end **out, size_t *count)
 {
     const size_t vertices = graph->topology->vertex_count;
-    *out = (struct ends){.items = crease_allocate(graph->context, vertices, sizeof *out->items)};
-    if (!out->items)
+    *count = 0;
+    *out = crease_allocate(graph->context, vertices, sizeof **out);
+    if (!*out)
         return CREASE_ERROR_NO_MEMORY;
     for (size_t v = 0; v < vertices; v++) {
         uint32_t odd[3];
         if (odd_regions(graph, (int32_t)v, 3, odd) != 2)
             continue;
         const uint32_t low = odd[0] < odd[1] ? odd[0] : odd[1];
-        out->items[out->count++] = (crease_end){(int32_t)v, {low, odd[0] + odd[1] - low}};
+        (*out)[(*count)++] = (crease_end){(int32_t)v, {low, odd[0] + odd[1] - low}};
     }
     return CREASE_OK;
 }
 
-static bool is_still_odd(const crease_graph *graph, const crease_end *end)
+bool crease_end_is_odd(const crease_graph *graph, const crease_end *end)
 {
     return crease_graph_odd(graph, end->vertex, end->regions[0]) &&
         crease_graph_odd(graph, end->vertex, end->regions[1]);
@@ -85,10 +86,10 @@ static crease_status extend(struct walk *walk, crease_cycle *cycle, int sides)
         const uint32_t to = end->regions[0] == from ? end->regions[1] : end->regions[0];
         if (closing ? to != cycle->regions[0] : has_region(cycle, sides, to))
             continue;
-        if (walk->trials++ >= MOST_TRIALS || !is_still_odd(walk->graph, cycle->ends[0]))
+        if (walk->trials++ >= MOST_TRIALS || !crease_end_is_odd(walk->graph, cycle->ends[0]))
             break;
         cycle->ends[sides] = end;
-        if (!is_still_odd(walk->graph, end))
+        if (!crease_end_is_odd(walk->graph, end))
             continue;
         if (!closing) {
             cycle->regions[sides + 1] = to;
@@ -101,8 +102,8 @@ static crease_status extend(struct walk *walk, crease_cycle *cycle, int sides)
 
 crease_status crease_cycles_visit(crease_graph *graph, crease_cycle_visit *visit, void *user)
 {
-    struct ends ends;
-    crease_status status = list_ends(graph, &ends);
+    struct ends ends = {0, NULL};
+    crease_status status = crease_ends_list(graph, &ends.items, &ends.count);
     struct walk walk = {graph, &ends, visit, user, 0};
     for (int count = 3; count <= CREASE_MOST_SIDES && status == CREASE_OK; count++)
         for (size_t i = 0; i < ends.count && status == CREASE_OK; i++) {

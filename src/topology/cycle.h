@@ -16,6 +16,11 @@ typedef struct crease_end {
     uint32_t regions[2]; /* ascending */
 } crease_end;
 
+/* All of them, in the order of the vertices; the caller frees the list. */
+crease_status crease_ends_list(const crease_graph *graph, crease_end **out, size_t *count);
+/* Whether the edge is still missing. */
+bool crease_end_is_odd(const crease_graph *graph, const crease_end *end);
+
 typedef struct crease_cycle {
     int count;
     const crease_end *ends[CREASE_MOST_SIDES];

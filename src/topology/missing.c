@@ -222,10 +222,48 @@ static crease_status fill(void *user, const crease_cycle *cycle)
     return cut(run, &polygon) ? join(run, &polygon) : CREASE_OK;
 }
 
+/* Two ends of which the one leads to the other, as that is the corner of their three regions: lays
+ * the edge that the first lacks. The third region then lacks one at the corner. */
+static crease_status lead(struct finding *run, const crease_end *from, const crease_end *to)
+{
+    crease_graph *const graph = run->graph;
+    const double reach = SAME * graph->survey->spacing;
+    uint32_t regions[3];
+    double place[3];
+    crease_edge edge = {.count = 0};
+    bool found = false;
+    if (!crease_edge_common(from->regions, to->regions, regions) ||
+        !(crease_meeting_in_shadow(graph, to->vertex, regions, reach, place) < reach) ||
+        crease_vector_distance(graph->topology->vertices[from->vertex].place, place) < reach)
+        return CREASE_OK;
+    crease_status status = crease_bridge_lay(
+        graph, from->regions, (int32_t[]){from->vertex, to->vertex}, &edge, &found);
+    if (found)
+        status = crease_graph_take(graph, &edge);
+    crease_edge_clear(&edge);
+    return status;
+}
+
+static crease_status lead_ends(struct finding *run)
+{
+    crease_end *ends = NULL;
+    size_t count = 0;
+    crease_status status = crease_ends_list(run->graph, &ends, &count);
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < count && status == CREASE_OK; k++)
+            if (i != k && crease_end_is_odd(run->graph, &ends[i]) &&
+                crease_end_is_odd(run->graph, &ends[k]))
+                status = lead(run, &ends[i], &ends[k]);
+    free(ends);
+    return status;
+}
+
 crease_status crease_missing_find(crease_graph *graph, const crease_links *links)
 {
     struct finding run = {.graph = graph, .links = links};
     crease_status status = crease_cycles_visit(graph, fill, &run);
     run.in_shadow = true;
-    return status == CREASE_OK ? crease_cycles_visit(graph, fill, &run) : status;
+    if (status == CREASE_OK)
+        status = crease_cycles_visit(graph, fill, &run);
+    return status == CREASE_OK ? lead_ends(&run) : status;
 }

@@ -64,5 +64,6 @@ void crease_topology_free(crease_topology *topology)
     free(topology->vertices);
     free(topology->edges);
     free(topology->faces);
+    free(topology->unseen);
     free(topology);
 }

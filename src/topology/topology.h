@@ -70,6 +70,8 @@ typedef struct crease_face {
     crease_loop *loops;
 } crease_face;
 
+struct crease_model;
+
 typedef struct crease_topology {
     double spacing;
     size_t region_count;
@@ -81,6 +83,8 @@ typedef struct crease_topology {
     crease_edge *edges;
     size_t face_count, face_room;
     crease_face *faces;
+    size_t unseen_count;         /* planes of faces that no point shows, but their neighbours: */
+    struct crease_model *unseen; /* see topology/complete.h */
 } crease_topology;
 
 /* Without vertices, edges, faces and charts. NULL when memory ran out. */

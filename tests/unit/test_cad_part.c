@@ -221,6 +221,34 @@ static void given_lands_on_one_plane_then_they_share_it(void **state)
     free_built(&b);
 }
 
+/* Of one wall of the slot no point is left, and half of the floor before it is in shadow. */
+static void given_a_wall_in_shadow_then_its_neighbours_tell_where_it_is(void **state)
+{
+    given_points points = given_prism(&slot);
+    size_t kept = 0;
+    for (size_t i = 0; i < points.count; i++) {
+        const double *const p = points.points + 3 * i;
+        if (fabs(p[0] - 1.4) < 1e-9 || (p[0] > 1 && p[0] < 1.4 && fabs(p[2] - 0.5) < 1e-9))
+            continue;
+        memmove(points.points + 3 * kept++, p, 3 * sizeof *p);
+    }
+    points.count = kept;
+    built b = given_part_cloud(points, 2);
+    when_built(&b, NULL);
+    then_solid(&b, 10, 24, 1.6, 0.01);
+    const crease_regions *const used = crease_part_regions(b.part);
+    assert_int_equal(crease_part_unseen_count(b.part), 1);
+    assert_int_equal(crease_regions_count(b.regions), 9);
+    assert_int_equal(crease_regions_count(used), 10);
+    const crease_region wall = crease_regions_at(used, 9);
+    assert_int_equal(wall.type, CREASE_REGION_PLANE);
+    assert_int_equal(wall.point_count, 0);
+    assert_near(fabs(wall.parameters[3]), 1, 1e-6);
+    assert_near(wall.parameters[0], 1.4, 0.015);
+    then_written_part_is_closed(&b, "shadow.step");
+    free_built(&b);
+}
+
 static void given_a_rod_then_rims_and_a_seam(void **state)
 {
     const given_body rod = given_rod(0.5, 1);
@@ -381,6 +409,7 @@ int main(void)
         cmocka_unit_test(given_a_noisy_box_far_away_then_a_solid_within_the_noise),
         cmocka_unit_test(given_a_step_then_one_edge_is_concave),
         cmocka_unit_test(given_lands_on_one_plane_then_they_share_it),
+        cmocka_unit_test(given_a_wall_in_shadow_then_its_neighbours_tell_where_it_is),
         cmocka_unit_test(given_a_rod_then_rims_and_a_seam),
         cmocka_unit_test(given_a_pyramid_then_four_faces_meet_in_its_tip),
         cmocka_unit_test(given_bspline_faces_then_the_same_solid_of_splines),
