@@ -43,7 +43,7 @@ namespace
 
 constexpr int LEAST_SAMPLES = 16, MOST_SAMPLES = 1024;
 constexpr double CLOSE = 1e-7; /* of the size: a cubic that is as near to the surface will do */
-constexpr double SLACK = 1.05; /* of tolerances, over the gaps measured */
+constexpr double SLACK = 1.2;  /* of tolerances, over the gaps measured */
 
 /* A smooth piece of the sheet, over [0, 1]. */
 struct Piece {
@@ -215,9 +215,11 @@ Handle(Geom_BSplineCurve)
 double gap_of(const Handle(Geom_BSplineCurve) & cubic, const crease_curve *curve,
     const Piece &piece, int samples)
 {
+    /* in every span of either curve */
+    const int places = 3 * std::max(samples, (int)crease_curve_count(curve));
     double gap = 0.0;
-    for (int i = 0; i < 3 * samples; i++) {
-        const double t = (i + 0.5) / (3 * samples);
+    for (int i = 0; i < places; i++) {
+        const double t = (i + 0.5) / places;
         gap = std::max(gap, cubic->Value(t).Distance(pass(curve, piece, t).place));
     }
     return gap;

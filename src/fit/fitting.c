@@ -340,8 +340,8 @@ static crease_status settle(
     return status == CREASE_OK ? hold_back(context, f) : status;
 }
 
-/* From the fit of some of the points to that of all: one round, one step of the lines, and another
- * round when that was worth it. */
+/* From the fit of some of the points to that of all: one round, one step of the lines unless they
+ * are exact, and another round when that was worth it. */
 static crease_status take_all(crease_context *context, crease_fitting *f, crease_samples *samples)
 {
     crease_draft *const draft = &f->draft;
@@ -353,7 +353,7 @@ static crease_status take_all(crease_context *context, crease_fitting *f, crease
         status = crease_draft_begin(context, draft, &draft->height, &before);
     if (status == CREASE_OK)
         status = crease_draft_fit(context, draft, 1, CREASE_CHOICE_NONE);
-    if (status == CREASE_OK)
+    if (status == CREASE_OK && !f->exact)
         status = crease_lines_refine(context, draft, 1, turn);
     return status;
 }
