@@ -11,30 +11,32 @@ import tempfile
 
 # A process begins with the peak memory of the one that starts it: so a small one does. Under mpirun
 # there is one for each rank.
-LAUNCHER = """import os, sys
+LAUNCHER = """import os, resource, signal, sys
 nowhere = [(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)]
-process = os.posix_spawn(sys.argv[2], sys.argv[2:], os.environ, file_actions=nowhere)
+if int(sys.argv[2]):
+    resource.setrlimit(resource.RLIMIT_CPU, (int(sys.argv[2]), resource.RLIM_INFINITY))
+process = os.posix_spawn(sys.argv[3], sys.argv[3:], os.environ, file_actions=nowhere)
 _, status, usage = os.wait4(process, 0)
 with open(os.path.join(sys.argv[1], os.environ.get("OMPI_COMM_WORLD_RANK", "0")), "w") as file:
     print(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024, file=file)
-sys.exit(status != 0)"""
+sys.exit(status != 0 and not (os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU))"""
 ONE_THREAD = {'OMP_NUM_THREADS': '1', 'OPENBLAS_NUM_THREADS': '1'}
 
 
-def run_ranks(start, arguments, **environment):
+def run_ranks(start, arguments, limit=0, **environment):
     """CPU seconds and peak memory in MB of each process of a program that `start` starts; None when it
-    fails."""
+    fails. limit: CPU seconds after which a process is ended, which is no failure; 0: none."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [*start, sys.executable, '-S', '-c', LAUNCHER, folder, *arguments]
+        command = [*start, sys.executable, '-S', '-c', LAUNCHER, folder, '%d' % limit, *arguments]
         if subprocess.run(command, env=dict(os.environ, **environment)).returncode:
             return None
         texts = [open(os.path.join(folder, str(rank))).read() for rank in range(len(os.listdir(folder)))]
     return [tuple(float(word) for word in text.split()) for text in texts]
 
 
-def run(arguments, **environment):
-    """CPU seconds and peak memory in MB of a program; None when it fails."""
-    ranks = run_ranks([], arguments, **environment)
+def run(arguments, limit=0, **environment):
+    """CPU seconds and peak memory in MB of a program, as of run_ranks(); None when it fails."""
+    ranks = run_ranks([], arguments, limit, **environment)
     return ranks and ranks[0]
 
 
