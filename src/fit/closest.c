@@ -13,6 +13,7 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "spline/basis.h"
+#include "spline/project.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -28,15 +29,20 @@ typedef struct bound {
     double slope, bend;
 } bound;
 
-typedef struct work {
+struct crease_closest {
     const crease_height *height;
     const crease_layout *layout;
     const crease_frame *frame;
-    const double *points;
-    crease_foot *feet;
     size_t spans[2];
     bound *bounds; /* of the cells, spans of no length included */
-    bool *left;    /* points whose foot is not certain */
+    crease_projector *projector;
+};
+
+typedef struct work {
+    const crease_closest *on;
+    const double *points;
+    crease_foot *feet;
+    bool *left; /* points whose foot is not certain */
 } work;
 
 /* Height, slopes along u and v, second derivatives uu, uv, vv. */
@@ -94,7 +100,7 @@ static double bound_of(
 static void bound_some(void *user, size_t begin, size_t end, int worker)
 {
     (void)worker;
-    const work *const w = user;
+    const crease_closest *const w = user;
     const crease_height *const h = w->height;
     const size_t degree = (size_t)h->order - 1;
     for (size_t cell = begin; cell < end; cell++) {
@@ -158,7 +164,7 @@ static bool step_of(const double p[3], const double uv[2], const jet *j, double 
 }
 
 /* A stationary place inside the part of the domain between lines that is below p. */
-static bool descend(const work *w, const double p[3], double interval[2][2], double uv[2])
+static bool descend(const crease_closest *w, const double p[3], double interval[2][2], double uv[2])
 {
     for (int d = 0; d < 2; d++) {
         crease_layout_between(w->layout, d, p[d], interval[d]);
@@ -187,7 +193,8 @@ static bool descend(const work *w, const double p[3], double interval[2][2], dou
 }
 
 /* Whether nothing within the radius of p is closer than a stationary place at that distance. */
-static bool certain(const work *w, const double p[3], double interval[2][2], double radius)
+static bool certain(
+    const crease_closest *w, const double p[3], double interval[2][2], double radius)
 {
     const crease_height *const h = w->height;
     const double reach = radius * (1.0 + 1e-9);
@@ -218,7 +225,7 @@ static bool certain(const work *w, const double p[3], double interval[2][2], dou
     return radius * (1.0 + 2.0 * sqrt(2.0) * most.slope) * most.bend < 0.5;
 }
 
-static bool find_foot(const work *w, const double *point, crease_foot *foot)
+static bool find_foot(const crease_closest *w, const double *point, crease_foot *foot)
 {
     double p[3], interval[2][2];
     jet j;
@@ -240,13 +247,12 @@ static void find_some(void *user, size_t begin, size_t end, int worker)
     (void)worker;
     const work *const w = user;
     for (size_t i = begin; i < end; i++)
-        w->left[i] = !find_foot(w, w->points + 3 * i, &w->feet[i]);
+        w->left[i] = !find_foot(w->on, w->points + 3 * i, &w->feet[i]);
 }
 
 /* ---------------------------------------------------------------------------- what is left -- */
 
-static crease_status search(
-    crease_context *context, const work *w, const crease_surface *surface, size_t count)
+static crease_status search(crease_context *context, const work *w, size_t count)
 {
     size_t left = 0;
     for (size_t i = 0; i < count; i++)
@@ -260,7 +266,7 @@ static crease_status search(
         if (w->left[i])
             memcpy(points + 3 * k++, w->points + 3 * i, 3 * sizeof *points);
     if (status == CREASE_OK)
-        status = crease_surface_project(context, surface, points, left, feet);
+        status = crease_projector_project(context, w->on->projector, points, left, feet);
     for (size_t i = 0, k = 0; i < count && status == CREASE_OK; i++)
         if (w->left[i])
             w->feet[i] = feet[k++];
@@ -269,28 +275,54 @@ static crease_status search(
     return status;
 }
 
-crease_status crease_closest_feet(crease_context *context, const crease_height *height,
-    const crease_layout *layout, const crease_frame *frame, const crease_surface *surface,
+crease_status crease_closest_feet(crease_context *context, const crease_closest *closest,
     const double *points, size_t count, crease_foot *feet)
 {
-    const size_t order = (size_t)height->order;
-    work w = {.height = height,
-        .layout = layout,
-        .frame = frame,
-        .points = points,
-        .feet = feet,
-        .spans = {height->count[0] + 1 - order, height->count[1] + 1 - order}};
-    const size_t cells = w.spans[0] * w.spans[1];
-    w.bounds = crease_allocate(context, cells, sizeof *w.bounds);
+    work w = {.on = closest, .points = points, .feet = feet};
     w.left = crease_allocate(context, count, sizeof *w.left);
-    crease_status status = w.bounds && w.left ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+    crease_status status =
+        w.left ? crease_parallel_for(context, count, GRAIN, find_some, &w) : CREASE_ERROR_NO_MEMORY;
     if (status == CREASE_OK)
-        status = crease_parallel_for(context, cells, GRAIN, bound_some, &w);
-    if (status == CREASE_OK)
-        status = crease_parallel_for(context, count, GRAIN, find_some, &w);
-    if (status == CREASE_OK)
-        status = search(context, &w, surface, count);
-    free(w.bounds);
+        status = search(context, &w, count);
     free(w.left);
     return status;
+}
+
+/* ------------------------------------------------------------------------------------- making --
+ */
+
+crease_status crease_closest_create(crease_context *context, const crease_height *height,
+    const crease_layout *layout, const crease_frame *frame, const crease_surface *surface,
+    crease_closest **out)
+{
+    const size_t order = (size_t)height->order;
+    *out = NULL;
+    crease_closest *const made = crease_allocate(context, 1, sizeof *made);
+    if (!made)
+        return CREASE_ERROR_NO_MEMORY;
+    *made = (crease_closest){.height = height,
+        .layout = layout,
+        .frame = frame,
+        .spans = {height->count[0] + 1 - order, height->count[1] + 1 - order}};
+    const size_t cells = made->spans[0] * made->spans[1];
+    made->bounds = crease_allocate(context, cells, sizeof *made->bounds);
+    crease_status status = made->bounds
+        ? crease_parallel_for(context, cells, GRAIN, bound_some, made)
+        : CREASE_ERROR_NO_MEMORY;
+    if (status == CREASE_OK)
+        status = crease_projector_create(context, surface, &made->projector);
+    if (status == CREASE_OK)
+        *out = made;
+    else
+        crease_closest_free(made);
+    return status;
+}
+
+void crease_closest_free(crease_closest *closest)
+{
+    if (!closest)
+        return;
+    crease_projector_free(closest->projector);
+    free(closest->bounds);
+    free(closest);
 }

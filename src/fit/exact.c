@@ -289,19 +289,6 @@ static crease_status advance(work *w, start *at, const double step[PLACES], doub
     return status;
 }
 
-/* One step more from where all but rounding is explained: what is left falls by its square. */
-static crease_status polish(work *w, start *at, double rms)
-{
-    double step[PLACES];
-    start trial = *at;
-    if (!find_step(w, at, step))
-        return CREASE_OK;
-    const crease_status status = advance(w, &trial, step, &rms);
-    if (status == CREASE_OK && rms < INFINITY)
-        *at = trial;
-    return status;
-}
-
 /* From a start to where the points fit best, as long as it gets much better. */
 static crease_status descend(work *w, start *at, bool *found)
 {
@@ -322,7 +309,7 @@ static crease_status descend(work *w, start *at, bool *found)
         }
     }
     *found = status == CREASE_OK && rms <= w->tolerance;
-    return *found ? polish(w, at, rms) : status;
+    return status;
 }
 
 /* ------------------------------------------------------------------------------------- starts --

@@ -48,14 +48,20 @@ static crease_status finish(
 static crease_status fit_height(crease_context *context, crease_fitting *f, crease_sheet **sheet)
 {
     double *errors = NULL;
+    crease_closest *closest = NULL;
+    const crease_draft *const draft = &f->draft;
     crease_status status = crease_fitting_choose(context, f);
     if (status == CREASE_OK)
         status = finish(context, f, &errors, sheet);
     if (status == CREASE_OK) {
         (*sheet)->errors = errors;
         errors = NULL;
-        status = crease_fitting_project(context, &f->draft, f->points, f->count, *sheet);
+        status = crease_closest_create(
+            context, &draft->height, &draft->layout, &draft->frame, (*sheet)->surface, &closest);
     }
+    if (status == CREASE_OK)
+        status = crease_fitting_project(context, closest, f->points, f->count, *sheet);
+    crease_closest_free(closest);
     free(errors);
     return status;
 }

@@ -5,7 +5,6 @@
 
 #include "base/memory.h"
 #include "base/vector.h"
-#include "fit/closest.h"
 #include "fit/covariance.h"
 #include "fit/exact.h"
 #include "fit/isolate.h"
@@ -431,7 +430,7 @@ crease_status crease_fitting_sheet(
     return status;
 }
 
-crease_status crease_fitting_project(crease_context *context, const crease_draft *draft,
+crease_status crease_fitting_project(crease_context *context, const crease_closest *closest,
     const double *points, size_t count, crease_sheet *sheet)
 {
     crease_foot *feet = crease_allocate(context, count, sizeof *feet);
@@ -443,9 +442,8 @@ crease_status crease_fitting_project(crease_context *context, const crease_draft
         ? CREASE_OK
         : CREASE_ERROR_NO_MEMORY;
     if (status == CREASE_OK)
-        status = draft ? crease_closest_feet(context, &draft->height, &draft->layout, &draft->frame,
-                             sheet->surface, points, count, feet)
-                       : crease_surface_project(context, sheet->surface, points, count, feet);
+        status = closest ? crease_closest_feet(context, closest, points, count, feet)
+                         : crease_surface_project(context, sheet->surface, points, count, feet);
     for (size_t i = 0; i < count && status == CREASE_OK; i++) {
         memcpy(sheet->parameters + 2 * i, feet[i].uv, sizeof feet[i].uv);
         memcpy(sheet->projected + 3 * i, feet[i].point, sizeof feet[i].point);

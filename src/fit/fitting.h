@@ -7,6 +7,7 @@
 #define CREASE_FIT_FITTING_H
 
 #include "averaging/orient.h"
+#include "fit/closest.h"
 #include "fit/explore.h"
 
 typedef struct crease_fitting {
@@ -63,9 +64,9 @@ crease_status crease_fitting_sheet(
     crease_context *context, const crease_fitting *fitting, crease_sheet **out);
 /* Whether the draft goes through its points but for rounding. */
 bool crease_fitting_is_exact(const crease_fitting *fitting);
-/* Gives a sheet its points, with their feet on it. draft: that it was made from, or NULL. Errors:
+/* Gives a sheet its points, with their feet on it. closest: made of its height, or NULL. Errors:
  * NO_MEMORY, CANCELLED. */
-crease_status crease_fitting_project(crease_context *context, const crease_draft *draft,
+crease_status crease_fitting_project(crease_context *context, const crease_closest *closest,
     const double *points, size_t count, crease_sheet *sheet);
 
 #endif

@@ -7,7 +7,6 @@
 #include "fit/sum.h"
 
 #include "base/memory.h"
-#include "fit/closest.h"
 #include "spline/sheet.h"
 
 #include <cblas.h>
@@ -80,6 +79,7 @@ void crease_sheet_sum_free(crease_sheet_sum *sum)
 {
     if (!sum)
         return;
+    crease_closest_free(sum->closest);
     crease_surface_free(sum->surface);
     crease_height_free(&sum->below);
     crease_fitting_free(&sum->fitting);
@@ -143,6 +143,8 @@ static crease_status open_round(crease_context *context, crease_sheet_sum *sum)
     crease_fitting *const f = &sum->fitting;
     crease_draft *const draft = &f->draft;
     const bool first = !sum->surface;
+    crease_closest_free(sum->closest);
+    sum->closest = NULL;
     crease_height_free(&sum->below);
     sum->below_layout = draft->layout;
     crease_status status = crease_height_create(context, &draft->layout, &sum->below);
@@ -287,6 +289,13 @@ static crease_status hold_back(crease_context *context, crease_draft *draft)
     return status;
 }
 
+crease_status crease_sheet_sum_make_ready(crease_context *context, crease_sheet_sum *sum)
+{
+    const crease_draft *const draft = &sum->fitting.draft;
+    return crease_closest_create(
+        context, &draft->height, &draft->layout, &draft->frame, sum->surface, &sum->closest);
+}
+
 static crease_status solve(crease_context *context, crease_sheet_sum *sum, crease_sheet **out)
 {
     crease_draft *const draft = &sum->fitting.draft;
@@ -299,9 +308,6 @@ static crease_status solve(crease_context *context, crease_sheet_sum *sum, creas
     if (status == CREASE_OK)
         status = crease_fitting_sheet(context, &sum->fitting, out);
     if (status == CREASE_OK)
-        status =
-            crease_fitting_project(context, draft, sum->fitting.points, sum->fitting.count, *out);
-    if (status == CREASE_OK)
         status = crease_height_surface(context, &draft->height, &draft->frame, &surface);
     if (status != CREASE_OK)
         return status;
@@ -309,7 +315,10 @@ static crease_status solve(crease_context *context, crease_sheet_sum *sum, creas
     crease_surface_free(sum->surface);
     sum->surface = surface;
     sum->open = false;
-    return CREASE_OK;
+    status = crease_sheet_sum_make_ready(context, sum);
+    return status == CREASE_OK ? crease_fitting_project(context, sum->closest, sum->fitting.points,
+                                     sum->fitting.count, *out)
+                               : status;
 }
 
 crease_status crease_sheet_sum_solve(
@@ -338,14 +347,14 @@ bool crease_sheet_sum_wants_more(const crease_sheet_sum *sum)
 crease_status crease_sheet_sum_distances(crease_context *context, const crease_sheet_sum *sum,
     const double *points, size_t count, double *distances)
 {
-    const crease_draft *const draft = &sum->fitting.draft;
     if (!sum->surface)
         return crease_fail(context, CREASE_ERROR_ARGUMENT, "sheet: it has not been solved yet");
     crease_foot *feet = crease_allocate(context, count, sizeof *feet);
     if (!feet)
         return CREASE_ERROR_NO_MEMORY;
-    const crease_status status = crease_closest_feet(
-        context, &draft->height, &draft->layout, &draft->frame, sum->surface, points, count, feet);
+    const crease_status status = sum->closest
+        ? crease_closest_feet(context, sum->closest, points, count, feet)
+        : crease_surface_project(context, sum->surface, points, count, feet);
     for (size_t i = 0; i < count && status == CREASE_OK; i++)
         distances[i] = feet[i].distance;
     free(feet);

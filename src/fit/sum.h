@@ -25,6 +25,7 @@ struct crease_sheet_sum {
     crease_height below; /* the sheet that feet and weights are taken from */
     crease_layout below_layout;
     crease_surface *surface; /* solved last, or NULL */
+    crease_closest *closest; /* on it, unless a round has begun since */
     crease_sum_box all;      /* the rectangle of all points */
     double scale;            /* standard deviation of the points */
     double mean;             /* distance of the sample from the sheet below */
@@ -43,6 +44,9 @@ crease_status crease_sheet_sum_observe(crease_context *context, const crease_she
  * crease_sheet_sum_add() of the same points. */
 crease_status crease_sheet_sum_take(
     crease_context *context, crease_sheet_sum *sum, const double *numbers, size_t count);
+
+/* Makes the sheet solved last ready for distances. */
+crease_status crease_sheet_sum_make_ready(crease_context *context, crease_sheet_sum *sum);
 
 /* What another process of the same build needs to widen, observe and measure; free() the bytes. */
 crease_status crease_sheet_sum_pack(

@@ -17,6 +17,7 @@ typedef struct summary {
     crease_sum_box all;
     double spacing, epsilon, scale;
     uint64_t height[2], below[2], surface[2]; /* control points; 0: there is none */
+    uint64_t ready;                           /* for distances */
 } summary;
 
 static void put_all(crease_packing *out, const void *user)
@@ -36,7 +37,8 @@ static void put_all(crease_packing *out, const void *user)
         .scale = sum->scale,
         .height = {height->count[0], height->count[1]},
         .below = {below->count[0], below->count[1]},
-        .surface = {surface.count[0], surface.count[1]}};
+        .surface = {surface.count[0], surface.count[1]},
+        .ready = sum->closest != NULL};
     crease_packing_put(out, &head, sizeof head);
     crease_packing_put(
         out, height->coefficients, height->count[0] * height->count[1] * sizeof(double));
@@ -105,6 +107,8 @@ crease_status crease_sheet_sum_unpack(
         status = get_height(context, &bytes, &head.below_layout, head.below, &sum->below);
     if (status == CREASE_OK)
         status = get_surface(context, bytes, &head, &sum->surface);
+    if (status == CREASE_OK && head.ready)
+        status = crease_sheet_sum_make_ready(context, sum);
     if (status == CREASE_OK)
         *out = sum;
     else

@@ -27,7 +27,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GRAIN = 64, MOST_BOXES = 2000, STACK_BOXES = 80, STACK_NODES = 128 };
+enum {
+    GRAIN = 64,
+    ENCLOSED_AT_ONCE = 4096,
+    MOST_BOXES = 2000,
+    STACK_BOXES = 80,
+    STACK_NODES = 128
+};
 
 static const double SMALL_BOX = 1e-6;
 
@@ -38,11 +44,13 @@ typedef struct node {
     size_t children[2]; /* 0 for a single patch */
 } node;
 
-typedef struct projector {
+struct crease_projector {
+    const crease_surface *surface; /* or NULL */
+    const crease_curve *curve;     /* or NULL */
     crease_bezier bezier;
     node *nodes;
     size_t node_count;
-} projector;
+};
 
 /* What a worker needs besides. */
 typedef struct scratch {
@@ -59,66 +67,87 @@ typedef struct found {
 
 /* ---------------------------------------------------------------------------------- tree -- */
 
-static void enclose_patch(const projector *p, node *leaf)
+static void enclose_patch(const crease_projector *p, node *leaf)
 {
     static const double origin[3] = {0};
     double points[3 * CREASE_ORDER_MAX * CREASE_ORDER_MAX];
     crease_bezier_patch(&p->bezier, leaf->first, origin, points);
     for (int i = 0; i < 3 * p->bezier.parts.order[0] * p->bezier.parts.order[1]; i++) {
-        leaf->lowest[i % 3] = i < 3 ? points[i] : fmin(leaf->lowest[i % 3], points[i]);
-        leaf->highest[i % 3] = i < 3 ? points[i] : fmax(leaf->highest[i % 3], points[i]);
+        double *const low = &leaf->lowest[i % 3], *const high = &leaf->highest[i % 3];
+        *low = i < 3 || points[i] < *low ? points[i] : *low;
+        *high = i < 3 || points[i] > *high ? points[i] : *high;
     }
 }
 
-/* Makes the node that holds a rectangle of patches and all below it; returns its number. The depth
- * is that of halving twice a 32-bit count. */
-static size_t grow(projector *p, const size_t first[2], const size_t last[2])
+static void enclose_some(void *user, size_t begin, size_t end, int worker)
+{
+    (void)worker;
+    const crease_projector *const p = user;
+    for (size_t i = begin; i < end; i++)
+        if (!p->nodes[i].children[0])
+            enclose_patch(p, &p->nodes[i]);
+}
+
+/* Children come after their parents. */
+static void enclose_children(const crease_projector *p)
+{
+    for (size_t i = p->node_count; i-- > 0;) {
+        node *const here = &p->nodes[i];
+        if (!here->children[0])
+            continue;
+        const node *const a = &p->nodes[here->children[0]], *const b = &p->nodes[here->children[1]];
+        for (int c = 0; c < 3; c++) {
+            here->lowest[c] = a->lowest[c] < b->lowest[c] ? a->lowest[c] : b->lowest[c];
+            here->highest[c] = a->highest[c] > b->highest[c] ? a->highest[c] : b->highest[c];
+        }
+    }
+}
+
+/* Makes the node that holds a rectangle of patches and all below it, without their boxes; returns
+ * its number. The depth is that of halving twice a 32-bit count. */
+static size_t grow(crease_projector *p, const size_t first[2], const size_t last[2])
 {
     const size_t number = p->node_count++;
     node *const here = &p->nodes[number];
     memcpy(here->first, first, sizeof here->first);
     memcpy(here->last, last, sizeof here->last);
     const int longer = last[1] - first[1] > last[0] - first[0];
-    if (last[longer] - first[longer] == 1) {
-        enclose_patch(p, here);
+    if (last[longer] - first[longer] == 1)
         return number;
-    }
     const size_t middle = first[longer] + (last[longer] - first[longer]) / 2;
     size_t lower_last[2] = {last[0], last[1]};
     size_t upper_first[2] = {first[0], first[1]};
     lower_last[longer] = upper_first[longer] = middle;
     here->children[0] = grow(p, first, lower_last);
     here->children[1] = grow(p, upper_first, last);
-    const node *const a = &p->nodes[here->children[0]];
-    const node *const b = &p->nodes[here->children[1]];
-    for (int c = 0; c < 3; c++) {
-        here->lowest[c] = fmin(a->lowest[c], b->lowest[c]);
-        here->highest[c] = fmax(a->highest[c], b->highest[c]);
-    }
     return number;
 }
 
-static void release(projector *p)
+static void release(crease_projector *p)
 {
     crease_bezier_release(&p->bezier);
     free(p->nodes);
 }
 
 static crease_status prepare(
-    crease_context *context, const crease_surface_parts *parts, projector *p)
+    crease_context *context, const crease_surface_parts *parts, crease_projector *p)
 {
-    *p = (projector){.nodes = NULL};
-    const crease_status status = crease_bezier_prepare(context, parts, &p->bezier);
+    crease_status status = crease_bezier_prepare(context, parts, &p->bezier);
     if (status != CREASE_OK)
         return status;
     const size_t patches = p->bezier.span_count[0] * p->bezier.span_count[1];
     p->nodes = crease_allocate(context, 2 * patches, sizeof *p->nodes);
-    if (!p->nodes) {
-        release(p);
-        return CREASE_ERROR_NO_MEMORY;
+    if (p->nodes) {
+        grow(p, (const size_t[2]){0, 0}, p->bezier.span_count);
+        status = crease_parallel_for(context, p->node_count, ENCLOSED_AT_ONCE, enclose_some, p);
+    } else {
+        status = CREASE_ERROR_NO_MEMORY;
     }
-    grow(p, (const size_t[2]){0, 0}, p->bezier.span_count);
-    return CREASE_OK;
+    if (status == CREASE_OK)
+        enclose_children(p);
+    else
+        release(p);
+    return status;
 }
 
 /* -------------------------------------------------------------------------------- search -- */
@@ -156,7 +185,7 @@ static bool settled(const crease_box *box, int used)
 }
 
 /* Searches one patch; *used counts the boxes looked at for this place. */
-static void search_patch(const projector *p, const size_t number[2], const double place[3],
+static void search_patch(const crease_projector *p, const size_t number[2], const double place[3],
     scratch *s, int *used, found *best)
 {
     crease_bezier_patch(&p->bezier, number, place, s->patch);
@@ -189,7 +218,7 @@ static void search_patch(const projector *p, const size_t number[2], const doubl
 }
 
 /* Nearer child on top of the stack, so that the bound falls early. */
-static found search(const projector *p, const double place[3], scratch *s)
+static found search(const crease_projector *p, const double place[3], scratch *s)
 {
     struct {
         double squared;
@@ -245,7 +274,7 @@ static void snap(const crease_patch *patch, found *best)
 }
 
 /* The last digits: once more from the best, free in its whole patch. */
-static void polish(const projector *p, const double place[3], scratch *s, found *best)
+static void polish(const crease_projector *p, const double place[3], scratch *s, found *best)
 {
     static const double lowest[2] = {0.0, 0.0};
     static const double highest[2] = {1.0, 1.0};
@@ -261,7 +290,8 @@ static void polish(const projector *p, const double place[3], scratch *s, found 
     snap(&patch, best);
 }
 
-static void locate(const projector *p, const double place[3], scratch *s, found *best, double uv[2])
+static void locate(
+    const crease_projector *p, const double place[3], scratch *s, found *best, double uv[2])
 {
     *best = search(p, place, s);
     polish(p, place, s, best);
@@ -274,10 +304,8 @@ static void locate(const projector *p, const double place[3], scratch *s, found 
 /* -------------------------------------------------------------------------------- threads -- */
 
 typedef struct work {
-    projector projector;
-    const crease_surface *surface; /* or NULL */
-    const crease_curve *curve;     /* or NULL */
-    scratch *scratches;            /* one per thread */
+    const crease_projector *projector;
+    scratch *scratches; /* one per thread */
     const double *points;
     crease_foot *feet;
 } work;
@@ -310,11 +338,12 @@ static void sum_normals(
 static void finish_foot(const work *w, const found *best, const double place[3], crease_foot *foot)
 {
     double sum[3] = {0};
-    if (w->surface) {
-        crease_surface_point(w->surface, foot->uv, foot->point);
-        sum_normals(w->surface, best, foot->uv, sum);
+    const crease_projector *const p = w->projector;
+    if (p->surface) {
+        crease_surface_point(p->surface, foot->uv, foot->point);
+        sum_normals(p->surface, best, foot->uv, sum);
     } else {
-        crease_curve_evaluate(w->curve, foot->uv[0], CREASE_SIDE_RIGHT, 0, foot->point);
+        crease_curve_evaluate(p->curve, foot->uv[0], CREASE_SIDE_RIGHT, 0, foot->point);
     }
     double squared = 0.0;
     double along = 0.0;
@@ -332,7 +361,7 @@ static void project_some(void *user, size_t begin, size_t end, int worker)
     for (size_t i = begin; i < end; i++) {
         const double *const place = w->points + 3 * i;
         found best;
-        locate(&w->projector, place, &w->scratches[worker], &best, w->feet[i].uv);
+        locate(w->projector, place, &w->scratches[worker], &best, w->feet[i].uv);
         finish_foot(w, &best, place, &w->feet[i]);
     }
 }
@@ -340,8 +369,8 @@ static void project_some(void *user, size_t begin, size_t end, int worker)
 static crease_status make_scratches(crease_context *context, work *w, double **coefficients)
 {
     const size_t threads = (size_t)crease_context_threads(context);
-    const size_t size = (size_t)(2 * w->projector.bezier.parts.order[0] - 1) *
-        (size_t)(2 * w->projector.bezier.parts.order[1] - 1);
+    const size_t size = (size_t)(2 * w->projector->bezier.parts.order[0] - 1) *
+        (size_t)(2 * w->projector->bezier.parts.order[1] - 1);
     w->scratches = crease_allocate(context, threads, sizeof *w->scratches);
     *coefficients = crease_allocate(context, threads * STACK_BOXES * size, sizeof(double));
     if (!w->scratches || !*coefficients)
@@ -352,34 +381,71 @@ static crease_status make_scratches(crease_context *context, work *w, double **c
     return CREASE_OK;
 }
 
-static crease_status project(
-    crease_context *context, work *w, const crease_surface_parts *parts, size_t count)
+static crease_status project(crease_context *context, work *w, size_t count)
 {
-    for (size_t i = 0; i < 3 * count; i++)
-        if (!isfinite(w->points[i]))
-            return crease_fail(context, CREASE_ERROR_VALUE,
-                "projection: point %zu is not finite; remove such points", i / 3);
-    crease_status status = prepare(context, parts, &w->projector);
-    if (status != CREASE_OK)
-        return status;
     double *coefficients = NULL;
-    status = make_scratches(context, w, &coefficients);
+    crease_status status = make_scratches(context, w, &coefficients);
     if (status == CREASE_OK) {
         crease_stage(context, "projection");
         status = crease_parallel_for(context, count, GRAIN, project_some, w);
     }
     free(coefficients);
     free(w->scratches);
-    release(&w->projector);
     return status;
+}
+
+static crease_status check(crease_context *context, const double *points, size_t count)
+{
+    for (size_t i = 0; i < 3 * count; i++)
+        if (!isfinite(points[i]))
+            return crease_fail(context, CREASE_ERROR_VALUE,
+                "projection: point %zu is not finite; remove such points", i / 3);
+    return CREASE_OK;
+}
+
+crease_status crease_projector_create(
+    crease_context *context, const crease_surface *surface, crease_projector **out)
+{
+    const crease_surface_parts parts = crease_surface_parts_of(surface);
+    *out = NULL;
+    crease_projector *const p = crease_allocate(context, 1, sizeof *p);
+    if (!p)
+        return CREASE_ERROR_NO_MEMORY;
+    p->surface = surface;
+    const crease_status status = prepare(context, &parts, p);
+    if (status == CREASE_OK)
+        *out = p;
+    else
+        free(p);
+    return status;
+}
+
+void crease_projector_free(crease_projector *projector)
+{
+    if (projector)
+        release(projector);
+    free(projector);
+}
+
+crease_status crease_projector_project(crease_context *context, const crease_projector *projector,
+    const double *points, size_t count, crease_foot *feet)
+{
+    work w = {.projector = projector, .points = points, .feet = feet};
+    const crease_status status = check(context, points, count);
+    return status == CREASE_OK ? project(context, &w, count) : status;
 }
 
 crease_status crease_surface_project(crease_context *context, const crease_surface *surface,
     const double *points, size_t count, crease_foot *feet)
 {
-    const crease_surface_parts parts = crease_surface_parts_of(surface);
-    work w = {.surface = surface, .points = points, .feet = feet};
-    return project(context, &w, &parts, count);
+    crease_projector *projector = NULL;
+    crease_status status = check(context, points, count);
+    if (status == CREASE_OK)
+        status = crease_projector_create(context, surface, &projector);
+    if (status == CREASE_OK)
+        status = crease_projector_project(context, projector, points, count, feet);
+    crease_projector_free(projector);
+    return status;
 }
 
 crease_status crease_curve_project(crease_context *context, const crease_curve *curve,
@@ -390,8 +456,15 @@ crease_status crease_curve_project(crease_context *context, const crease_curve *
         .count = {curve->count, 1},
         .knots = {curve->knots, across},
         .control_points = curve->control_points};
-    work w = {.curve = curve, .points = points, .feet = feet};
-    const crease_status status = project(context, &w, &parts, count);
+    crease_projector p = {.curve = curve};
+    work w = {.projector = &p, .points = points, .feet = feet};
+    crease_status status = check(context, points, count);
+    if (status == CREASE_OK)
+        status = prepare(context, &parts, &p);
+    if (status == CREASE_OK) {
+        status = project(context, &w, count);
+        release(&p);
+    }
     for (size_t i = 0; i < count && status == CREASE_OK; i++)
         feet[i].uv[1] = 0.0;
     return status;

@@ -55,6 +55,18 @@ static void given_points(const sheet *s, double *points)
     crease_frame_leave(&s->frame, points, COUNT, points);
 }
 
+static crease_status find_feet(
+    crease_context *context, const sheet *s, const double *points, crease_foot *feet)
+{
+    crease_closest *closest = NULL;
+    crease_status status =
+        crease_closest_create(context, &s->height, &s->layout, &s->frame, s->surface, &closest);
+    if (status == CREASE_OK)
+        status = crease_closest_feet(context, closest, points, COUNT, feet);
+    crease_closest_free(closest);
+    return status;
+}
+
 static void given_a_height_then_its_feet_are_those_of_the_surface(void **state)
 {
     static double points[3 * COUNT];
@@ -64,9 +76,7 @@ static void given_a_height_then_its_feet_are_those_of_the_surface(void **state)
         for (int rough = 0; rough < 2; rough++) {
             sheet s = given_sheet(context, order, rough ? 0.1 : 0.002);
             given_points(&s, points);
-            assert_int_equal(crease_closest_feet(context, &s.height, &s.layout, &s.frame, s.surface,
-                                 points, COUNT, feet),
-                CREASE_OK);
+            assert_int_equal(find_feet(context, &s, points, feet), CREASE_OK);
             assert_int_equal(
                 crease_surface_project(context, s.surface, points, COUNT, truth), CREASE_OK);
             for (size_t i = 0; i < COUNT; i++) {
@@ -89,9 +99,7 @@ static void given_any_number_of_threads_then_the_bytes_are_the_same(void **state
         crease_context *context = given_context_with_threads(threads);
         sheet s = given_sheet(context, 4, 0.02);
         given_points(&s, points);
-        assert_int_equal(crease_closest_feet(context, &s.height, &s.layout, &s.frame, s.surface,
-                             points, COUNT, feet[threads - 1]),
-            CREASE_OK);
+        assert_int_equal(find_feet(context, &s, points, feet[threads - 1]), CREASE_OK);
         release(&s);
         crease_context_free(context);
     }
@@ -109,8 +117,7 @@ static void given_a_failing_allocation_then_it_says_so(void **state)
     long n = 0;
     for (; status != CREASE_OK && n < 100; n++) {
         crease_context_fail_allocation(context, n);
-        status = crease_closest_feet(
-            context, &s.height, &s.layout, &s.frame, s.surface, points, COUNT, feet);
+        status = find_feet(context, &s, points, feet);
         crease_context_fail_allocation(context, -1);
         assert_true(status == CREASE_OK || status == CREASE_ERROR_NO_MEMORY);
     }

@@ -375,7 +375,7 @@ static void given_hostile_input_then_it_is_refused_or_survived(void **state)
     crease_context_fail_allocation(context, failures);
     while (crease_surface_project(context, surface, place, 1, &foot) == CREASE_ERROR_NO_MEMORY)
         crease_context_fail_allocation(context, ++failures);
-    assert_int_equal(failures, 5);
+    assert_int_equal(failures, 6);
     crease_surface_free(surface);
     crease_context_free(context);
 }

@@ -114,6 +114,13 @@ static void given_a_net_for_iterations_then_it_is_that_of_the_points(void **stat
         assert_int_equal(crease_sheet_sum_distances(context, sum, truth, 1, &distance), CREASE_OK);
         assert_near(distance, 0, 0.5 * noise);
     }
+    /* also while points are added for another one */
+    double before[5], after[5];
+    assert_int_equal(crease_sheet_sum_distances(context, sum, points, 5, before), CREASE_OK);
+    assert_int_equal(crease_sheet_sum_add(context, sum, points, 500), CREASE_OK);
+    assert_int_equal(crease_sheet_sum_distances(context, sum, points, 5, after), CREASE_OK);
+    for (int i = 0; i < 5; i++)
+        assert_near(after[i], before[i], 1e-12);
     crease_sheet_free(sheet);
     crease_sheet_sum_free(sum);
     free(points);
