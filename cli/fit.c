@@ -12,7 +12,6 @@
 #include "limit.h"
 
 #include "crease/crease_stream.h"
-#include "crease/crease_trim.h"
 
 /* With fewer points there are no regions to speak of. */
 enum { LEAST_FOR_SHELL = 500 };
@@ -30,24 +29,27 @@ static crease_status check(crease_context *context, const settings *s)
 /* What the choice of a method has come to. */
 typedef struct choice {
     int method;
-    crease_sheet *sheet; /* a sheet that was fitted to find out, or NULL */
-    bool doubtful;       /* the sheet is taken if the method comes to nothing */
-    bool streamed;       /* the sheet is of more points than the cloud has: */
+    fit_ready ready; /* a sheet that was fitted to find out, if any */
+    bool doubtful;   /* the sheet is taken if the method comes to nothing */
+    bool streamed;   /* the sheet is of more points than the cloud has: */
     deviation_summary of_all;
 } choice;
 
 #ifdef CREASE_HAVE_CAD
 /* Whether the sheet can end where the points do, if it is to. */
 static crease_status can_end(
-    crease_context *context, const settings *s, const crease_sheet *sheet, bool *can)
+    crease_context *context, const settings *s, fit_ready *ready, bool *can)
 {
-    crease_trim *trim = NULL;
     if (s->no_trim)
         return CREASE_OK;
-    crease_status status = crease_sheet_trim(context, sheet, &trim);
-    if (status == CREASE_OK && !crease_trim_is_whole(trim))
-        status = cad_trim_mesh(context, trim, NULL, can);
-    crease_trim_free(trim);
+    crease_status status = crease_sheet_trim(context, ready->sheet, &ready->trim);
+    ready->whole = status == CREASE_OK && crease_trim_is_whole(ready->trim);
+    if (status == CREASE_OK && !ready->whole)
+        status = cad_trim_mesh(context, ready->trim, NULL, can);
+    if (status != CREASE_OK || ready->whole || !*can) {
+        crease_trim_free(ready->trim);
+        ready->trim = NULL;
+    }
     return status;
 }
 
@@ -64,11 +66,11 @@ static crease_status sheet_or_shell(
     if (status == CREASE_OK)
         status = crease_network_find(context, regions, NULL, &network);
     if (status == CREASE_OK)
-        status = crease_sheet_fit(context, cloud, &s->sheet, &out->sheet);
+        status = crease_sheet_fit(context, cloud, &s->sheet, &out->ready.sheet);
     if (status == CREASE_OK)
-        status = crease_sheet_carries(context, out->sheet, regions, network, &carries);
+        status = crease_sheet_carries(context, out->ready.sheet, regions, network, &carries);
     if (status == CREASE_OK && carries)
-        status = can_end(context, s, out->sheet, &carries);
+        status = can_end(context, s, &out->ready, &carries);
     out->method = carries ? METHOD_SHEET : METHOD_SHELL;
     out->doubtful = !carries;
     crease_network_free(network);
@@ -106,16 +108,14 @@ static crease_status fit(crease_context *context, const settings *s, report *r,
     bool instead = false;
     now.method = chosen->method;
     if (now.method == METHOD_PART || now.method == METHOD_SHELL) {
-        const crease_status status =
-            fit_part(context, &now, r, cloud, chosen->doubtful ? chosen->sheet : NULL, &instead);
+        const crease_status status = fit_part(
+            context, &now, r, cloud, chosen->doubtful ? chosen->ready.sheet : NULL, &instead);
         if (status != CREASE_OK || !instead)
             return status;
         now.method = METHOD_SHEET;
     }
-    const crease_status status = fit_sheet(
-        context, &now, r, cloud, chosen->sheet, chosen->streamed ? &chosen->of_all : NULL);
-    chosen->sheet = NULL;
-    return status;
+    return fit_sheet(
+        context, &now, r, cloud, &chosen->ready, chosen->streamed ? &chosen->of_all : NULL);
 }
 
 /* A sample of the points when all of them are more than --memory allows. */
@@ -147,7 +147,7 @@ static crease_status fit_streamed(
     options.read = s->read;
     options.memory = limit_left(s);
     const crease_status status =
-        engine_fit_stream(context, path, &options, &summary, out, &chosen->sheet);
+        engine_fit_stream(context, path, &options, &summary, out, &chosen->ready.sheet);
     if (status != CREASE_OK)
         return status;
     chosen->streamed = true;
@@ -186,7 +186,7 @@ crease_status fit_run(crease_context *context, const settings *s, report *r)
         status = choose(context, s, cloud, &chosen);
     if (status == CREASE_OK)
         status = fit(context, s, r, cloud, &chosen);
-    crease_sheet_free(chosen.sheet);
+    fit_ready_free(&chosen.ready);
     crease_cloud_free(cloud);
     return status;
 }

@@ -27,6 +27,7 @@ typedef struct result {
     crease_curve **lines; /* as long as the sheet */
     size_t line_count;
     crease_trim *trim;       /* NULL: the whole sheet is written */
+    bool whole;              /* known to have nothing to be cut off */
     crease_mesh *mesh;       /* of the trimmed faces */
     crease_cloud *cloud;     /* the input with variance and deviation */
     crease_cloud *projected; /* the same on the surface */
@@ -76,11 +77,14 @@ static bool is_drawn(const settings *s)
 /* Only where something is cut off. */
 static crease_status trim(crease_context *context, const settings *s, report *r, result *all)
 {
-    if (s->no_trim || s->method == METHOD_AVERAGING)
+    const bool sound = all->trim != NULL;
+    crease_status status = CREASE_OK;
+    if (s->no_trim || s->method == METHOD_AVERAGING || all->whole)
         return CREASE_OK;
-    crease_status status = crease_sheet_trim(context, all->sheet, &all->trim);
+    if (!sound)
+        status = crease_sheet_trim(context, all->sheet, &all->trim);
     bool keep = status == CREASE_OK && !crease_trim_is_whole(all->trim);
-    if (keep && cad_is_there()) {
+    if (keep && cad_is_there() && (!sound || is_drawn(s))) {
         status = cad_trim_mesh(context, all->trim, is_drawn(s) ? &all->mesh : NULL, &keep);
         if (!keep && status == CREASE_OK)
             report_line(r, "the sheet is not trimmed: its faces would not be valid");
@@ -359,10 +363,18 @@ static crease_status tell_of_layers(
     return status;
 }
 
-crease_status fit_sheet(crease_context *context, const settings *s, report *r,
-    const crease_cloud *cloud, crease_sheet *ready, const deviation_summary *of_all)
+void fit_ready_free(fit_ready *ready)
 {
-    result all = {.sheet = ready};
+    crease_trim_free(ready->trim);
+    crease_sheet_free(ready->sheet);
+    *ready = (fit_ready){.sheet = NULL};
+}
+
+crease_status fit_sheet(crease_context *context, const settings *s, report *r,
+    const crease_cloud *cloud, fit_ready *ready, const deviation_summary *of_all)
+{
+    result all = {.sheet = ready->sheet, .trim = ready->trim, .whole = ready->whole};
+    *ready = (fit_ready){.sheet = NULL};
     crease_status status = make_result(context, s, r, cloud, &all);
     if (status == CREASE_OK) {
         report_stage(r, "fit");
