@@ -103,8 +103,7 @@ static const Job *coarser_job(Search &search)
     if (search.coarser)
         return search.coarser.get();
     crease_regions *found = nullptr;
-    require(
-        crease_regions_find_coarser(search.context, search.cloud, search.given.regions, &found));
+    require(crease_regions_find_coarser(search.context, search.given.regions, &found));
     search.coarser_regions.reset(found);
     if (found && crease_regions_count(found) < crease_regions_count(search.given.regions))
         search.coarser = std::make_unique<const Job>(

@@ -102,9 +102,9 @@ static size_t least_among(size_t least, size_t count)
     return least;
 }
 
-static crease_status segment(
-    crease_context *context, crease_regions *regions, const crease_regions_options *options)
+static crease_segmentation begin(crease_context *context, crease_regions *regions)
 {
+    const crease_regions_options *const options = &regions->options;
     const bool known = options->sigma > 0.0;
     crease_segmentation seg = {.context = context,
         .count = regions->count,
@@ -124,20 +124,64 @@ static crease_status segment(
     const double pi = acos(-1.0), window = CREASE_NOISE_NEIGHBOURS - 1;
     const double error = seg.sigma / (0.5 * seg.spacing * sqrt(window / pi) * sqrt(window));
     seg.least_cosine = cos(fmin(normals_agree * pi / 180.0 + 2.0 * error, pi / 3.0));
+    return seg;
+}
+
+static void end(crease_segmentation *seg)
+{
+    for (size_t r = 0; r < seg->region_count; r++)
+        crease_model_clear(&seg->models[r]);
+    crease_fitters_free(seg->context, seg->fitters);
+    free(seg->models);
+    free(seg->tried);
+    free(seg->members);
+    free(seg->first);
+}
+
+static crease_status segment(crease_context *context, crease_regions *regions)
+{
+    crease_segmentation seg = begin(context, regions);
     crease_status status = crease_fitters_create(context, &seg.fitters);
     if (status == CREASE_OK)
         status = regions->rounded ? run_beside_edges(&seg, regions) : run(&seg);
-    if (status == CREASE_OK && options->united)
+    if (status == CREASE_OK && regions->options.united)
         status = crease_rounds_unite(&seg, true);
     if (status == CREASE_OK)
         status = crease_regions_take(context, regions, &seg);
-    for (size_t r = 0; r < seg.region_count; r++)
-        crease_model_clear(&seg.models[r]);
-    crease_fitters_free(context, seg.fitters);
-    free(seg.models);
-    free(seg.tried);
-    free(seg.members);
-    free(seg.first);
+    end(&seg);
+    return status;
+}
+
+/* The segmentation goes on where that of other regions ended. */
+static crease_status resume(crease_segmentation *seg, const crease_regions *from)
+{
+    crease_status status = crease_fitters_create(seg->context, &seg->fitters);
+    seg->members = crease_allocate(seg->context, seg->count, sizeof *seg->members);
+    if (status == CREASE_OK && !seg->members)
+        status = CREASE_ERROR_NO_MEMORY;
+    seg->sigma = from->sigma;
+    for (size_t r = 0; r < from->region_count && status == CREASE_OK; r++) {
+        crease_model model;
+        status = crease_model_copy(seg->context, &from->models[r], &model);
+        if (status != CREASE_OK)
+            break;
+        status = crease_segmentation_add(seg, &model);
+        if (status != CREASE_OK)
+            crease_model_clear(&model);
+    }
+    return status == CREASE_OK ? crease_segmentation_list(seg) : status;
+}
+
+static crease_status unite(
+    crease_context *context, crease_regions *regions, const crease_regions *from)
+{
+    crease_segmentation seg = begin(context, regions);
+    crease_status status = resume(&seg, from);
+    if (status == CREASE_OK)
+        status = crease_rounds_unite(&seg, true);
+    if (status == CREASE_OK)
+        status = crease_regions_take(context, regions, &seg);
+    end(&seg);
     return status;
 }
 
@@ -180,8 +224,29 @@ crease_status crease_regions_find_by(crease_context *context, const crease_cloud
     status = crease_regions_surround(context, regions, cloud, surroundings, user);
     if (status == CREASE_OK) {
         crease_stage(context, "regions");
-        status = segment(context, regions, &chosen);
+        status = segment(context, regions);
     }
+    if (status == CREASE_OK)
+        status = by_index(context, regions);
+    if (status == CREASE_OK)
+        *out = regions;
+    else
+        crease_regions_free(regions);
+    return status;
+}
+
+crease_status crease_regions_unite(
+    crease_context *context, const crease_regions *from, crease_regions **out)
+{
+    *out = NULL;
+    crease_regions *const regions = crease_allocate(context, 1, sizeof *regions);
+    if (!regions)
+        return CREASE_ERROR_NO_MEMORY;
+    regions->options = from->options;
+    regions->options.united = true;
+    crease_status status = crease_regions_surround_like(context, regions, from);
+    if (status == CREASE_OK)
+        status = unite(context, regions, from);
     if (status == CREASE_OK)
         status = by_index(context, regions);
     if (status == CREASE_OK)

@@ -51,4 +51,8 @@ crease_status crease_regions_find_by(crease_context *context, const crease_cloud
     const crease_regions_options *options, crease_surroundings_find *surroundings, void *user,
     crease_regions **out);
 
+/* The regions with those united that join without an angle, as crease_regions_options says. */
+crease_status crease_regions_unite(
+    crease_context *context, const crease_regions *from, crease_regions **out);
+
 #endif

@@ -114,6 +114,7 @@ static crease_status join_waves(crease_segmentation *seg)
 crease_status crease_rounds_unite(crease_segmentation *seg, bool wide)
 {
     size_t united = 0;
+    set_sigma(seg);
     const crease_status status = crease_unite(seg, wide, &united);
     return status == CREASE_OK && united ? polish(seg) : status;
 }

@@ -129,3 +129,41 @@ crease_status crease_regions_surround(crease_context *context, crease_regions *r
     }
     return status == CREASE_OK ? find_rounded(context, regions) : status;
 }
+
+static crease_status copy_surroundings(
+    crease_context *context, crease_regions *regions, const crease_regions *from)
+{
+    const size_t n = from->count, k = (size_t)from->neighbours->k;
+    crease_status status =
+        crease_neighbours_create(context, n, from->neighbours->k, &regions->neighbours);
+    if (status == CREASE_OK)
+        status = crease_noise_create(context, n, &regions->noise);
+    if (status != CREASE_OK)
+        return status;
+    crease_noise *const noise = regions->noise;
+    noise->spacing = from->noise->spacing;
+    noise->sigma = from->noise->sigma;
+    noise->alike = from->noise->alike;
+    memcpy(regions->neighbours->indices, from->neighbours->indices, n * k * sizeof(uint32_t));
+    memcpy(noise->normals, from->noise->normals, 3 * n * sizeof *noise->normals);
+    memcpy(noise->scores, from->noise->scores, n * sizeof *noise->scores);
+    memcpy(noise->local_spacing, from->noise->local_spacing, n * sizeof *noise->local_spacing);
+    return CREASE_OK;
+}
+
+crease_status crease_regions_surround_like(
+    crease_context *context, crease_regions *regions, const crease_regions *from)
+{
+    const size_t n = regions->count = from->count;
+    regions->order = crease_duplicate(context, from->order, n, sizeof *from->order);
+    regions->points = crease_duplicate(context, from->points, n, 3 * sizeof *from->points);
+    regions->labels = crease_duplicate(context, from->labels, n, sizeof *from->labels);
+    if (!regions->order || !regions->points || !regions->labels)
+        return CREASE_ERROR_NO_MEMORY;
+    if (from->rounded) {
+        regions->rounded = crease_duplicate(context, from->rounded, n, sizeof *from->rounded);
+        if (!regions->rounded)
+            return CREASE_ERROR_NO_MEMORY;
+    }
+    return copy_surroundings(context, regions, from);
+}

@@ -11,6 +11,9 @@
  * marks rounded edges. Errors: NO_MEMORY, CANCELLED, those of `find`. */
 crease_status crease_regions_surround(crease_context *context, crease_regions *regions,
     const crease_cloud *cloud, crease_surroundings_find *find, void *user);
+/* Copies them from other regions of the same cloud, with the labels. Errors: NO_MEMORY. */
+crease_status crease_regions_surround_like(
+    crease_context *context, crease_regions *regions, const crease_regions *from);
 /* Finds them in this process. */
 crease_surroundings_find crease_surroundings_here;
 

@@ -5,15 +5,13 @@
 
 #include "segment/region.h"
 
-crease_status crease_regions_find_coarser(crease_context *context, const crease_cloud *cloud,
-    const crease_regions *regions, crease_regions **out)
+crease_status crease_regions_find_coarser(
+    crease_context *context, const crease_regions *regions, crease_regions **out)
 {
-    crease_regions_options options = regions->options;
     *out = NULL;
-    if (options.united)
+    if (regions->options.united)
         return CREASE_OK;
-    options.united = true;
-    crease_status status = crease_regions_find(context, cloud, &options, out);
+    crease_status status = crease_regions_unite(context, regions, out);
     if (status == CREASE_OK && regions->snapped)
         status = crease_regions_snap(context, *out);
     if (status != CREASE_OK) {

@@ -12,10 +12,10 @@
 extern "C" {
 #endif
 
-/* Finds the regions again as the given ones were found, but united as crease_regions_options says,
- * and snapped if the given ones are. *out: NULL when the given ones are united. */
-CREASE_API crease_status crease_regions_find_coarser(crease_context *context,
-    const crease_cloud *cloud, const crease_regions *regions, crease_regions **out);
+/* Unites the regions as crease_regions_options says, and snaps them if the given ones are. *out:
+ * NULL when the given ones are united. */
+CREASE_API crease_status crease_regions_find_coarser(
+    crease_context *context, const crease_regions *regions, crease_regions **out);
 
 #ifdef __cplusplus
 }

@@ -133,10 +133,10 @@ static crease_status make_faces(crease_graph *graph)
     crease_status status = crease_charts_make(graph);
     if (status == CREASE_OK)
         status = crease_turns_cut(graph, seams);
-    if (status == CREASE_OK) {
-        crease_ends_finish(graph);
+    if (status == CREASE_OK)
+        status = crease_ends_finish(graph);
+    if (status == CREASE_OK)
         status = crease_faces_make(graph, seams);
-    }
     if (status == CREASE_OK)
         status = crease_charts_cover(graph);
     free(seams);

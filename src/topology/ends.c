@@ -5,6 +5,7 @@
 
 #include "base/vector.h"
 #include "crease/intersect.h"
+#include "topology/cusp.h"
 
 #include <math.h>
 #include <string.h>
@@ -325,9 +326,12 @@ static void finish_edge(const crease_graph *graph, crease_edge *edge)
     }
 }
 
-void crease_ends_finish(crease_graph *graph)
+crease_status crease_ends_finish(crease_graph *graph)
 {
     for (size_t e = 0; e < graph->topology->edge_count; e++)
         finish_edge(graph, &graph->topology->edges[e]);
-    find_spreads(graph);
+    const crease_status status = crease_cusps_move(graph);
+    if (status == CREASE_OK)
+        find_spreads(graph);
+    return status;
 }

@@ -17,7 +17,8 @@ void crease_ends_prune(crease_graph *graph);
 /* Joins the edges of the same two regions at vertices where nothing else ends: there a crease was
  * lost from sight for a while. All around, they become closed edges without a vertex. */
 crease_status crease_ends_dissolve(crease_graph *graph);
-/* Moves the ends of edges onto their two surfaces, and finds the spread of the vertices. */
-void crease_ends_finish(crease_graph *graph);
+/* Moves the ends of edges onto their two surfaces, vertices to where two edges of a face cross
+ * before, and finds the spread of the vertices. */
+crease_status crease_ends_finish(crease_graph *graph);
 
 #endif

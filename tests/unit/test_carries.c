@@ -5,6 +5,7 @@
 #include "given.h"
 
 #include "base/random.h"
+#include "snap/coarser.h"
 
 #include <stdlib.h>
 
@@ -140,6 +141,49 @@ static void given_waves_then_one_region_when_united(void **state)
     free_scene(&s);
 }
 
+/* A rod whose flat side goes on into it without an angle. */
+static double flat_rod(double x, double y)
+{
+    (void)y;
+    return x < 0.5 ? 0.0 : sqrt(1.0 - (x - 0.5) * (x - 0.5)) - 1.0;
+}
+
+static void given_regions_then_those_united_are_the_same_as_found_so(void **state)
+{
+    (void)state;
+    scene s = given_heights(flat_rod, 0.002);
+    const size_t united = when_divided(&s, true), apart = when_divided(&s, false);
+    crease_regions *coarser = NULL, *again = NULL;
+    assert_true(united < apart);
+    assert_int_equal(crease_regions_find_coarser(s.context, s.regions, &coarser), CREASE_OK);
+    assert_int_equal(crease_regions_count(coarser), united);
+    assert_int_equal(crease_regions_point_count(coarser), crease_cloud_count(s.cloud));
+    assert_int_equal(crease_regions_find_coarser(s.context, coarser, &again), CREASE_OK);
+    assert_null(again);
+    crease_regions_free(coarser);
+    free_scene(&s);
+}
+
+static void given_failing_memory_when_united_then_error_and_no_leak(void **state)
+{
+    (void)state;
+    scene s = given_drawn(flat_rod, (draw){.seed = 3, .side = 12, .noise = 0.002});
+    crease_context *const alone = given_context_with_threads(1);
+    crease_status status = CREASE_ERROR_NO_MEMORY;
+    when_divided(&s, false);
+    for (long n = 0; status != CREASE_OK; n++) {
+        crease_regions *coarser = NULL;
+        crease_context_fail_allocation(alone, n);
+        status = crease_regions_find_coarser(alone, s.regions, &coarser);
+        crease_context_fail_allocation(alone, -1);
+        assert_true(status == CREASE_OK ? n > 10 : status == CREASE_ERROR_NO_MEMORY);
+        assert_true((coarser != NULL) == (status == CREASE_OK));
+        crease_regions_free(coarser);
+    }
+    crease_context_free(alone);
+    free_scene(&s);
+}
+
 static void given_a_crease_then_two_regions_even_when_united(void **state)
 {
     (void)state;
@@ -263,6 +307,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(given_waves_then_one_region_when_united),
+        cmocka_unit_test(given_regions_then_those_united_are_the_same_as_found_so),
+        cmocka_unit_test(given_failing_memory_when_united_then_error_and_no_leak),
         cmocka_unit_test(given_a_crease_then_two_regions_even_when_united),
         cmocka_unit_test(given_planes_then_uniting_changes_nothing),
         cmocka_unit_test(given_a_gap_in_the_points_then_one_region_on_both_sides),

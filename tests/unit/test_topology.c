@@ -4,7 +4,9 @@
 /* Topology of bodies whose models are exact, so that every number is known. */
 #include "given_models.h"
 
+#include "base/vector.h"
 #include "topology/assembly.h"
+#include "topology/cusp.h"
 #include "topology/graph.h"
 
 static const double S = 1.0 / 16;
@@ -635,6 +637,55 @@ static void given_steps_that_go_back_when_looked_at_then_the_edge_is_wild(void *
     crease_context_free(context);
 }
 
+/* Adds an edge from a vertex at (1, 0, 0) to one of its own, by its points. */
+static void edge_from_tip(crease_graph *graph, uint32_t other, const double *points, size_t count)
+{
+    crease_edge edge = crease_edge_between(other == 2 ? 1 : 0, other);
+    edge.vertices[0] = 0;
+    assert_int_equal(
+        crease_graph_vertex(graph, points + 3 * (count - 1), &edge.vertices[1]), CREASE_OK);
+    for (size_t i = 0; i < count; i++)
+        assert_int_equal(crease_edge_append(graph->context, &edge, points + 3 * i), CREASE_OK);
+    assert_int_equal(crease_graph_take(graph, &edge), CREASE_OK);
+}
+
+/* Two edges of a plane come to a vertex side by side and cross 1.5 spacings before it. */
+static void given_edges_that_cross_before_their_vertex_when_moved_then_it_is_where_they_do(
+    void **state)
+{
+    const double up[3] = {0, 0, 1}, along[3] = {0, 1, 0}, aslant[3] = {0.1, 1, 0};
+    const double at[3] = {1 - 1.5 * S, 0, 0};
+    given_body body = {.size = 2};
+    given_add(&body, given_plane((double[]){0, 0, 0}, up));
+    given_add(&body, given_plane((double[]){0, 0, 0}, along));
+    given_add(&body, given_plane(at, aslant));
+    world w = world_of_points(&body, given_sample(&body, S, 0, 5), S, 0);
+    crease_topology *const t = crease_topology_create(w.context, w.regions);
+    const crease_survey survey = {.regions = w.regions, .spacing = S, .sigma = 0.03 * S};
+    crease_graph graph = {w.context, &survey, t};
+    int32_t tip;
+    assert_int_equal(crease_graph_vertex(&graph, (double[]){1, 0, 0}, &tip), CREASE_OK);
+    edge_from_tip(&graph, 1, (double[]){1, 0, 0, 1 - S, 0, 0, 1 - 2 * S, 0, 0, 0, 0, 0}, 4);
+    edge_from_tip(&graph, 2, (double[]){1, 0, 0, 1, 0, 1, 1, 0, 2}, 3);
+    crease_edge other = crease_edge_between(0, 2);
+    const double y = 0.1 * 1.5 * S, back[3] = {0, 0.1 * (1 - 1.5 * S), 0};
+    other.vertices[0] = tip + 1;
+    other.vertices[1] = tip;
+    assert_int_equal(crease_edge_append(w.context, &other, back), CREASE_OK);
+    assert_int_equal(crease_edge_append(w.context, &other, (double[]){1, -y, 0}), CREASE_OK);
+    assert_int_equal(crease_graph_take(&graph, &other), CREASE_OK);
+    assert_int_equal(crease_cusps_move(&graph), CREASE_OK);
+    assert_true(crease_vector_distance(t->vertices[tip].place, at) < 1e-12);
+    assert_int_equal(t->edges[0].count, 3);
+    assert_true(crease_vector_distance(t->edges[0].points, at) < 1e-12);
+    assert_int_equal(t->edges[1].count, 4);
+    assert_true(crease_vector_distance(t->edges[1].points, at) < 1e-12);
+    assert_int_equal(t->edges[2].count, 2);
+    assert_true(crease_vector_distance(t->edges[2].points + 3, at) < 1e-12);
+    crease_topology_free(t);
+    end_world(&w);
+}
+
 static bool not_on_bottom(const double *p, int32_t label)
 {
     return label != 2;
@@ -799,6 +850,8 @@ int main(void)
         cmocka_unit_test(given_edge_without_points_when_found_then_it_is_bridged),
         cmocka_unit_test(given_few_points_in_a_bay_when_found_then_no_edge_is_there_twice),
         cmocka_unit_test(given_steps_that_go_back_when_looked_at_then_the_edge_is_wild),
+        cmocka_unit_test(
+            given_edges_that_cross_before_their_vertex_when_moved_then_it_is_where_they_do),
         cmocka_unit_test(given_face_without_points_when_found_then_neighbours_are_open),
         cmocka_unit_test(given_no_regions_when_found_then_nothing),
         cmocka_unit_test(given_noise_when_found_then_the_same_topology),
