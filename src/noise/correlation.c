@@ -10,6 +10,8 @@
  *   stretches that err alike.
  * - A surface that is no quadric leaves more and more too, but ever more is added: the cubic terms
  *   alone eight times as much whenever the number of points doubles.
+ * - Edges raise the windows that lie across them. Where most of the larger ones do, those that
+ *   leave least still lie inside faces and leave what they left before, but not of shared noise.
  * - The other side of a thin wall comes at once, and leaves what no noise leaves. Where heights
  * over the smallest window's plane have a gap, the window sees it and says nothing.
  *
@@ -30,9 +32,12 @@
 
 enum { WINDOWS = 500, SIZES = 4, LEAST = 24, MOST = LEAST << (SIZES - 1), GRAIN = 16 };
 
-static const double quantile = 0.3;    /* of the variances of windows of one size */
-static const double deviate = -0.5244; /* that quantile of a normal distribution */
-static const double growing = 1.3;     /* least ratio of the variances of the first two sizes */
+/* A quantile of the variances of windows of one size, and of a normal distribution. */
+struct quantile {
+    double share, deviate;
+};
+static const struct quantile typical = {0.3, -0.5244}, least = {0.05, -1.6449};
+static const double growing = 1.3;   /* least ratio of the variances of the first two sizes */
 static const double lasting = 3.0;   /* most added by twice the size, over what was added so far */
 static const double at_once = 8.0;   /* more than the eightfold comes of no smooth surface ... */
 static const double roughest = 0.4;  /* ... and a greater deviation, in spacings, of no noise */
@@ -115,19 +120,26 @@ static void fit_windows(void *user, size_t begin, size_t end, int worker)
 
 /* The quantile of chi-square over its degrees of freedom.
  * Based on: Wilson, Hilferty. The distribution of chi-square. 1931. */
-static double chi_square_quantile(double freedom)
+static double chi_square_quantile(const struct quantile *quantile, double freedom)
 {
     const double spread = 2.0 / (9.0 * freedom);
-    const double root = 1.0 - spread + deviate * sqrt(spread);
+    const double root = 1.0 - spread + quantile->deviate * sqrt(spread);
     return root * root * root;
 }
 
 /* Variance of the noise by the windows of one size, were it independent. */
-static double variance_at(const survey *run, int size)
+static double variance_at(const survey *run, const struct quantile *quantile, int size)
 {
     const double freedom = (LEAST << size) + 1 - CREASE_QUADRIC_TERMS;
-    const size_t rank = (size_t)(quantile * (double)run->windows);
-    return crease_select(run->variances[size], run->windows, rank) / chi_square_quantile(freedom);
+    const size_t rank = (size_t)(quantile->share * (double)run->windows);
+    return crease_select(run->variances[size], run->windows, rank) /
+        chi_square_quantile(quantile, freedom);
+}
+
+/* Whether the second size leaves more in every window, not only across edges. */
+static bool grows_everywhere(const survey *run)
+{
+    return variance_at(run, &least, 1) >= growing * variance_at(run, &least, 0);
 }
 
 /* Mean square of the residuals, parameters not taken into account. */
@@ -141,11 +153,13 @@ static crease_correlation judge(const survey *run, double sigma2, double spacing
 {
     const double most2 = roughest * roughest * spacing * spacing;
     crease_correlation found = {.points = 1.0};
-    double before = fmax(variance_at(run, 0), sigma2), alike = 0.0;
+    double before = fmax(variance_at(run, &typical, 0), sigma2), alike = 0.0;
     const double first = before;
     int last = 0;
+    if (!grows_everywhere(run))
+        return found;
     for (int size = 1; size < SIZES; size++) {
-        const double now = variance_at(run, size), added = before - first;
+        const double now = variance_at(run, &typical, size), added = before - first;
         if (!isfinite(now) || (size == 1 ? now < growing * first : now - first > lasting * added))
             break;
         if (now > at_once * before && now > most2)

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "crease/profile.h"
 #include "crease/support.h"
+#include "topology/alike.h"
 #include "topology/bridge.h"
 #include "topology/charts.h"
 #include "topology/ends.h"
@@ -195,12 +196,13 @@ crease_status crease_topology_find(
     crease_context *context, const crease_regions *regions, bool bordered, crease_topology **out)
 {
     crease_tree *tree = NULL;
-    crease_regions view = *regions; /* with models that may change */
+    crease_regions view = *regions; /* with models and labels that may change */
     crease_topology *const topology = crease_topology_create(context, regions);
     view.models = topology ? copy_models(context, regions) : NULL;
+    view.labels = crease_duplicate(context, regions->labels, regions->count, sizeof *view.labels);
     *out = NULL;
     crease_stage(context, "topology");
-    crease_status status = view.models ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
+    crease_status status = view.models && view.labels ? CREASE_OK : CREASE_ERROR_NO_MEMORY;
     if (status == CREASE_OK)
         status = crease_tree_create(context, regions->points, regions->count, &tree);
     if (status == CREASE_OK) {
@@ -209,10 +211,13 @@ crease_status crease_topology_find(
             .spacing = regions->noise->spacing,
             .sigma = regions->sigma,
             .least_bend = LEAST_TURN};
-        status = find(context, &survey, view.models, bordered, topology);
+        status = crease_alikes_join(context, &survey, view.labels);
+        if (status == CREASE_OK)
+            status = find(context, &survey, view.models, bordered, topology);
     }
     crease_tree_free(tree);
     free_models(view.models, regions->region_count);
+    free(view.labels);
     if (status == CREASE_OK)
         *out = topology;
     else

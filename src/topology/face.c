@@ -261,6 +261,15 @@ static crease_status make_faces(
     return status;
 }
 
+static bool has_no_points(const crease_graph *graph, int32_t region)
+{
+    const crease_regions *const r = graph->survey->regions;
+    size_t i = 0;
+    while (i < r->count && r->labels[i] != region)
+        i++;
+    return i == r->count;
+}
+
 crease_status crease_faces_make(crease_graph *graph, const int32_t *seams)
 {
     crease_topology *const t = graph->topology;
@@ -269,8 +278,9 @@ crease_status crease_faces_make(crease_graph *graph, const int32_t *seams)
         crease_loops loops;
         bool closed;
         status = crease_loops_of(graph, (uint32_t)i, &loops, &closed);
-        t->open[i] = !closed;
-        if (status == CREASE_OK && closed)
+        const bool bare = loops.count == 0 && has_no_points(graph, (int32_t)i);
+        t->open[i] = !closed && !bare;
+        if (status == CREASE_OK && closed && !bare)
             status = make_faces(graph, (uint32_t)i, &loops, seams + 2 * i);
         crease_loops_clear(&loops);
     }

@@ -178,6 +178,36 @@ static void independent_errors_are_not_taken_for_shared_ones(void **state)
     crease_context_free(context);
 }
 
+/* A zigzag of strips, a flat end beside it: most of the larger windows lie across folds. */
+static struct faces given_folds(double width)
+{
+    struct faces faces = given_faces(0.025);
+    for (int i = 0; i < 24; i++) {
+        const bool up = i % 2 == 0;
+        add_rectangle(&faces, (double[]){0.8 * width * i, 0, up ? 0 : 0.6 * width},
+            (double[]){0.8, 0, up ? 0.6 : -0.6}, (double[]){0, 1, 0}, width, 1);
+    }
+    add_rectangle(&faces, (double[]){0.8 * width * 24, 0, 0}, (double[]){1, 0, 0},
+        (double[]){0, 1, 0}, 0.7, 1);
+    add_noise(&faces, 0.16);
+    return faces;
+}
+
+static void folds_are_no_shared_errors(void **state)
+{
+    crease_context *context = given_context();
+    for (int spacings = 8; spacings <= 16; spacings += 2) {
+        struct faces faces = given_folds(0.025 * spacings);
+        crease_noise *noise = given_noise(context, &faces);
+        const double sigma = 0.16 * faces.spacing;
+        assert_true(noise->alike == 1.0);
+        assert_near(crease_noise_sigma(noise), sigma, 0.25 * sigma);
+        crease_noise_free(noise);
+        free_faces(&faces);
+    }
+    crease_context_free(context);
+}
+
 /* Small windows follow errors that ten points of a scan line share, and leave half of the noise. */
 static void errors_along_scan_lines_are_found(void **state)
 {
@@ -374,6 +404,7 @@ int main(void)
         cmocka_unit_test(walls_a_few_spacings_thick_are_no_shared_noise),
         cmocka_unit_test(narrow_faces_without_noise_have_none),
         cmocka_unit_test(independent_errors_are_not_taken_for_shared_ones),
+        cmocka_unit_test(folds_are_no_shared_errors),
         cmocka_unit_test(errors_along_scan_lines_are_found),
         cmocka_unit_test(terraces_of_rounded_depths_are_no_thin_walls),
         cmocka_unit_test(threads_do_not_change_a_bit),

@@ -302,6 +302,26 @@ static void given_third_of_a_rim_when_found_then_it_goes_round(void **state)
     end_world(&w);
 }
 
+static bool beside_shadows(const double *p, int32_t label)
+{
+    return label != 6 || fabs(p[0]) > 0.1;
+}
+
+/* Two sides of the wall of a bore, with shadows between them, are two regions. */
+static void given_bore_in_two_regions_when_found_then_one_face(void **state)
+{
+    given_body block;
+    const given_points points = keep(given_bore(&block), beside_shadows);
+    given_add(&block, block.models[6]);
+    for (size_t i = 0; i < points.count; i++)
+        if (points.labels[i] == 6 && points.points[3 * i] < 0)
+            points.labels[i] = 7;
+    world w = world_of_points(&block, points, S / 2, 0);
+    check_counts(w.topology, 10, 14, 7);
+    check_points(&w, 1e-9);
+    end_world(&w);
+}
+
 /* ------------------------------------------------------------------------ smooth joints -- */
 
 static bool not_on_top(const double *p, int32_t label)
@@ -837,6 +857,7 @@ int main(void)
         cmocka_unit_test(given_bored_block_when_found_then_top_and_bottom_have_a_hole),
         cmocka_unit_test(given_rim_in_pieces_when_found_then_one_edge_goes_round),
         cmocka_unit_test(given_third_of_a_rim_when_found_then_it_goes_round),
+        cmocka_unit_test(given_bore_in_two_regions_when_found_then_one_face),
         cmocka_unit_test(given_dome_when_found_then_a_smooth_ring_joins_rod_and_sphere),
         cmocka_unit_test(given_filleted_box_when_found_then_smooth_edges_beside_the_fillet),
         cmocka_unit_test(given_face_in_two_pieces_when_found_then_the_points_say_where_it_parts),
