@@ -3,7 +3,7 @@
 
 /* Whether a sheet can follow a cloud. Seen along the sheet's z the points fall into square cells of
  * some forty points each; where a surface lies over another, the heights in a cell fall apart in
- * two.
+ * two, or, where walls join the two, reach far.
  */
 #include "averaging/orient.h"
 #include "base/memory.h"
@@ -18,6 +18,8 @@ enum { CELL_POINTS = 40, LEAST_POINTS = 6, LEAST_CELLS = 8, MOST_CELLS = 1 << 24
 static const double layered_share = 0.2; /* of the cells, up to which a sheet will do */
 static const double least_layer = 0.05;  /* of a cell's points; else they are outliers */
 static const double least_apart = 0.82;  /* of the variance, between the layers; 0.75: a V */
+static const double tail = 0.15;         /* of a cell's points above and below the rest, ... */
+static const double least_rise = 1.2;    /* ... which rises by more sides of the cell: no sheet */
 static const double rounding = 1e-5;     /* of a cell's side: heights that differ less are equal */
 
 typedef struct cells {
@@ -120,6 +122,14 @@ static bool is_layered(double *heights, size_t count, double side)
     return best > least_apart * spread && spread > n * pow(rounding * side, 2.0);
 }
 
+/* Whether the heights, ascending, reach farther than those of a sheet, which a plane follows: as
+ * where walls and bores lie between the top and the bottom of a block. */
+static bool is_tall(const double *heights, size_t count, double side)
+{
+    const size_t aside = (size_t)(tail * (double)count);
+    return heights[count - 1 - aside] - heights[aside] > least_rise * side;
+}
+
 /* Few cells say nothing. heights: room for those of all points. */
 static bool has_few_layers(const cells *grid, double *heights)
 {
@@ -129,7 +139,7 @@ static bool has_few_layers(const cells *grid, double *heights)
         if (size < LEAST_POINTS)
             continue;
         level(grid->points + 3 * begin, size, heights);
-        layered += is_layered(heights, size, grid->side);
+        layered += is_layered(heights, size, grid->side) || is_tall(heights, size, grid->side);
         count++;
     }
     return count < LEAST_CELLS || (double)layered <= layered_share * (double)count;

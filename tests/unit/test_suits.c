@@ -55,6 +55,14 @@ static void plate(size_t i, double place[3])
     place[2] = 0.8 * place[0] + (i % 10 == 0 ? 3 * spacing : 0) + 0.2 * spacing * noise(i);
 }
 
+/* A block with twenty walls in it: no height between its top and its bottom is empty. */
+static void block_of_walls(size_t i, double place[3])
+{
+    place[0] = i % 8 == 0 ? 2 * uniform(i, 0) : 0.1 * (double)(i % 20);
+    place[1] = 2 * uniform(i, 1);
+    place[2] = i % 8 > 0 ? 2 * uniform(i, 2) : i % 16 == 0 ? 2 : 0;
+}
+
 /* Two faces without noise: heights over their planes are rounding errors of a few values only. */
 static void exact_roof(size_t i, double place[3])
 {
@@ -103,6 +111,7 @@ static void given_a_surface_over_another_then_no_sheet_suits(void **state)
 {
     assert_false(surface_suits(ball));
     assert_false(surface_suits(plate));
+    assert_false(surface_suits(block_of_walls));
 }
 
 static void given_the_examples_then_only_the_cube_is_no_sheet(void **state)
