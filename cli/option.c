@@ -127,6 +127,14 @@ const option option_table[] = {
     {"skip-invalid", 0, OPTION_FLAG, NULL,
         FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_FILTER | FOR_INFO, AT(read.skip_invalid), 0, 0,
         NULL, "leave out points that are not finite numbers instead of stopping", NULL},
+    {"mesh-points", 0, OPTION_INTEGER, "N",
+        FOR_DETECT | FOR_FIT | FOR_COMPARE | FOR_FILTER | FOR_INFO, AT(read.mesh_points), -1, 1e7,
+        NULL,
+        "points drawn on the triangles of a mesh (STL, OBJ, OFF, PLY), as if it were scanned; 0: "
+        "its "
+        "vertices are the cloud",
+        "-1: where its vertices alone do not tell its shape, as many as its narrowest faces ask "
+        "for"},
     {"resume", 0, OPTION_PATH, "FOLDER", FOR_DETECT | FOR_FIT, AT(resume), 0, 0, NULL,
         "keep what the long stages find in this folder, and begin with what is there: work that "
         "was "

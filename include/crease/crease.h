@@ -54,8 +54,7 @@ extern "C" {
     X(CREASE_ERROR_NUMERIC, CREASE_KIND_FAILURE, "the computation did not succeed")                \
     X(CREASE_ERROR_UNSUPPORTED, CREASE_KIND_FAILURE, "this build cannot do that")
 
-/** What a caller can do about a status: nothing to do, mend the call, mend the input, or neither.
- */
+/** What a caller can do about a status: nothing, mend the call, mend the input, or neither. */
 typedef enum crease_kind {
     CREASE_KIND_NONE,
     CREASE_KIND_USAGE,
@@ -84,9 +83,8 @@ typedef struct crease_context crease_context;
 typedef struct crease_context_options {
     int threads;   /**< number of threads, 1..1024; 0 = one for each processor */
     uint64_t seed; /**< seed of every random draw */
-    size_t memory; /**< bytes that the whole process may have: on Linux, a large block that would
-                      take more fails with CREASE_ERROR_NO_MEMORY; small ones and those of other
-                        libraries are counted. 0: no limit */
+    size_t memory; /**< bytes that the whole process may have, 0: no limit. On Linux, a large block
+                        that would take more fails with CREASE_ERROR_NO_MEMORY; all are counted */
     /** Called now and then during long work, always from the calling thread; fraction is 0..1. */
     void (*progress)(void *user, const char *stage, double fraction);
     /** Asked now and then; non-zero ends the work with CREASE_ERROR_CANCELLED. */
@@ -109,12 +107,11 @@ CREASE_API crease_status crease_context_fail(
 /** The number of threads in force (never 0). */
 CREASE_API int crease_context_threads(const crease_context *context);
 CREASE_API uint64_t crease_context_seed(const crease_context *context);
-/** Lets the stages that take long keep what they found in a folder, which is made when it is not
- * there, and begin with what they find in it: work that was broken off goes on after the last
- * finished stage, with the same result. Scores and regions do so; a file that belongs to other
- * points, options or another version is not used. A warning tells of each stage that is taken from
- * there. The name must outlive the context; NULL: nothing is kept, as at first. Errors:
- * CANNOT_WRITE. */
+/** Lets the stages that take long, scores and regions, keep what they found in a folder, which is
+ * made when it is not there, and begin with what they find in it: work that was broken off goes on
+ * after its last finished stage, with the same result. Files of other points, options or versions
+ * are not used. A warning tells of each stage that is taken from there. The name must outlive the
+ * context; NULL: nothing is kept, as at first. Errors: CANNOT_WRITE. */
 CREASE_API crease_status crease_context_keep(crease_context *context, const char *folder);
 
 /* ------------------------------------------------------------------------------------- cloud -- */
@@ -154,9 +151,8 @@ typedef struct crease_cloud_parts {
     crease_type coordinate_type; /**< FLOAT32 or FLOAT64: how coordinates are written back */
 } crease_cloud_parts;
 
-/** Makes a cloud. Zero points are allowed here; the stages ask for what they need.
- * Errors: ARGUMENT (missing points, doubled field names), VALUE (a coordinate is not finite),
- * NO_MEMORY. O(n). */
+/** Makes a cloud, also of zero points. O(n). Errors: ARGUMENT (missing points, doubled field
+ * names), VALUE (a coordinate is not finite), NO_MEMORY. */
 CREASE_API crease_status crease_cloud_create(
     crease_context *context, const crease_cloud_parts *parts, crease_cloud **out);
 /** The same cloud with further fields; a field of the same name is replaced. O(n). */
@@ -182,7 +178,7 @@ CREASE_API void crease_cloud_bounds(const crease_cloud *cloud, double lowest[3],
 
 /* ----------------------------------------------------------------------------------- shapes -- */
 
-/** The cube of the paper: the unit cube with every face on a square grid of this many intervals
+/** The cube of the paper: the unit cube, a square grid of this many intervals on every face
  * (1..8192; the paper: 32), no point doubled: 6 intervals^2 + 2 points. Errors: ARGUMENT,
  * NO_MEMORY. */
 CREASE_API crease_status crease_shape_cube(
@@ -239,12 +235,18 @@ typedef struct crease_read_options {
     /** Leave out points that are not finite or beyond 1e150, where squared distances overflow (with
      * one warning that counts them). Default: the first of them is an error. */
     bool skip_invalid;
+    /** Of a mesh (OBJ, STL, OFF, PLY with faces): about how many points are drawn on the faces that
+     * its triangles approximate, up to 10^7; 0, and when points are left out: its vertices; -1,
+     * default: these where they are 5000 and more, triangles being not much larger than their
+     * distances, else 10^4 to 10^5 points, as the narrowest faces ask for, with a warning. */
+    int mesh_points;
 } crease_read_options;
 
 CREASE_API crease_read_options crease_read_options_default(void);
 /** Reads a cloud: PLY, PCD, XYZ / TXT / CSV / ASC / PTS, LAS (not LAZ), or the vertices of OBJ,
- * STL, OFF. The format is found by signature first, by the file name's extension second. "-" is
- * standard input. Errors: NO_SUCH_FILE, CANNOT_READ, FORMAT, TRUNCATED, VALUE, NO_MEMORY. */
+ * STL, OFF, or points on their faces. The format is found by signature first, by the extension
+ * second.
+ * "-" is standard input. Errors: NO_SUCH_FILE, CANNOT_READ, FORMAT, TRUNCATED, VALUE, NO_MEMORY. */
 CREASE_API crease_status crease_cloud_read(crease_context *context, const char *path,
     const crease_read_options *options, crease_cloud **out);
 /** Name of the format of the file ("PLY", "STEP", ...), by signature first, or NULL. */
@@ -577,8 +579,8 @@ CREASE_API crease_status crease_surface_project(crease_context *context,
 
 /* ----------------------------------------------------------------------------------- creases -- */
 
-/** The creases of a cloud: the curves in which its smooth regions meet at an angle, joined in
- * corners. */
+/** The creases of a cloud: curves in which its smooth regions meet at an angle, joined in corners.
+ */
 typedef struct crease_network crease_network;
 
 typedef struct crease_network_options {
@@ -715,8 +717,7 @@ CREASE_API crease_status crease_sheet_line_curve(
 CREASE_API void crease_sheet_frame(const crease_sheet *sheet, double rotation[9], double origin[3]);
 /** Number of data points the sheet was fitted to. */
 CREASE_API size_t crease_sheet_point_count(const crease_sheet *sheet);
-/** Parameters u, v of every data point's projection, point_count x 2; NULL with the paper's
- * algorithm. */
+/** u and v of every data point's projection, point_count x 2; NULL with the paper's algorithm. */
 CREASE_API const double *crease_sheet_parameters(const crease_sheet *sheet);
 /** Step 11: every data point projected onto the sheet, point_count x 3. */
 CREASE_API const double *crease_sheet_projected(const crease_sheet *sheet);
@@ -751,8 +752,7 @@ typedef struct crease_accuracy {
     double max; /**< largest such distance */
 } crease_accuracy;
 
-/** Measures a sheet that was fitted to crease_shape_sample(options), on 16 sections across the edge
- * of 256 places each. */
+/** Measures a sheet fitted to crease_shape_sample(options): 16 sections of 256 places each. */
 CREASE_API crease_accuracy crease_sample_accuracy(
     const crease_sample_options *options, const crease_sheet *sheet);
 

@@ -156,12 +156,16 @@ def as_cloud(points: Points) -> Cloud:
     return Cloud(points)
 
 
-def read(path: Path, *, skip_invalid: bool = False) -> Cloud:
-    """Reads a cloud: PLY, PCD, XYZ, TXT, CSV, ASC, PTS, or the vertices of OBJ, STL, OFF.
+def read(path: Path, *, skip_invalid: bool = False, mesh_points: int | None = None) -> Cloud:
+    """Reads a cloud: PLY, PCD, XYZ, TXT, CSV, ASC, PTS, LAS, or a mesh: OBJ, STL, OFF, PLY.
 
-    skip_invalid: leave out points that are not finite, with a warning, instead of failing.
+    skip_invalid: leave out points that are not finite, with a warning, instead of failing; of a
+    mesh then the vertices.
+    mesh_points: how many points are drawn on the triangles of a mesh; 0: its vertices; None: its
+    vertices where they tell its shape, else as many as its narrowest faces ask for.
     """
-    options = fill(LIBRARY.crease_read_options_default(), skip_invalid=skip_invalid)
+    options = fill(LIBRARY.crease_read_options_default(), skip_invalid=skip_invalid,
+                   mesh_points=mesh_points)
     with Work() as work:
         return Cloud._of(work.make("cloud", "crease_cloud_read", encoded(path), byref(options)))
 

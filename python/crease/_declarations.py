@@ -134,7 +134,7 @@ class BracketOptions(Structure):
 
 
 class ReadOptions(Structure):
-    _fields_ = [("skip_invalid", c_bool)]
+    _fields_ = [("skip_invalid", c_bool), ("mesh_points", c_int)]
 
 
 class FilterOptions(Structure):

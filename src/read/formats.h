@@ -6,6 +6,7 @@
 #ifndef CREASE_READ_FORMATS_H
 #define CREASE_READ_FORMATS_H
 
+#include "facets/facets.h"
 #include "read/lines.h"
 #include "read/source.h"
 
@@ -19,6 +20,15 @@ crease_reader crease_obj_read;
 crease_reader crease_stl_read;
 crease_reader crease_off_read;
 crease_reader crease_las_read;
+
+/* Adds the faces of a mesh whose vertices facets has already. Errors: those of the reader. */
+typedef crease_status crease_faces_reader(
+    crease_context *context, const crease_source *source, crease_facets *facets);
+
+crease_faces_reader crease_ply_faces;
+crease_faces_reader crease_obj_faces;
+crease_faces_reader crease_stl_faces;
+crease_faces_reader crease_off_faces;
 
 /* Where the points of a file are, when they are rows of equal size, or lines, behind a header. */
 typedef struct crease_layout {
@@ -49,9 +59,10 @@ void crease_las_set_count(char *header, const crease_layout *layout, uint32_t co
 bool crease_stl_is_binary(const char *head, size_t head_size, size_t file_size);
 
 typedef struct crease_format {
-    const char *name;        /* "PLY" */
-    const char *description; /* "a CAD model (STEP)" */
-    crease_reader *read;     /* NULL: no cloud */
+    const char *name;           /* "PLY" */
+    const char *description;    /* "a CAD model (STEP)" */
+    crease_reader *read;        /* NULL: no cloud */
+    crease_faces_reader *faces; /* NULL: no mesh */
 } crease_format;
 
 /* The format of a file of which the first bytes are known: by signature first, by extension
@@ -62,5 +73,9 @@ const crease_format *crease_format_find(
 /* Reads the cloud of a source in the format that it has. */
 crease_status crease_source_read(crease_context *context, const crease_source *source,
     const crease_read_options *options, crease_cloud **out);
+/* The faces of the same source, of which the cloud has all vertices: none where it is no mesh.
+ * Errors: FORMAT, TRUNCATED, NO_MEMORY; there is nothing to free then. */
+crease_status crease_source_faces(crease_context *context, const crease_source *source,
+    const crease_cloud *cloud, crease_facets *out);
 
 #endif

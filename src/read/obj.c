@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* SPDX-FileCopyrightText: The crease authors */
 
-/* Wavefront OBJ: the vertices with their colours, and the normals where there is one for each. */
+/* Wavefront OBJ: the vertices with their colours, and the normals where there is one for each; and
+ * the faces. */
 #include "base/memory.h"
 #include "read/formats.h"
 #include "read/table.h"
@@ -127,5 +128,47 @@ crease_status crease_obj_read(crease_context *context, const crease_source *sour
     crease_table_free(&file.normals);
     crease_columns_free(&file.columns);
     crease_columns_free(&file.normal_columns);
+    return status;
+}
+
+/* ------------------------------------------------------------------------------------- faces -- */
+
+/* "7/2/1" is vertex 7 and "-1" the last one so far, both counted from 0 here; -1: neither. */
+static double vertex_of(crease_span word, size_t so_far)
+{
+    const bool back = *word.at == '-';
+    crease_span digits = {word.at + back, word.at + back};
+    uint64_t number = 0;
+    while (digits.end < word.end && *digits.end != '/')
+        digits.end++;
+    if (!crease_span_count(digits, &number))
+        return -1;
+    return back ? (double)so_far - (double)number : (double)number - 1;
+}
+
+static crease_status add_face(
+    crease_context *context, crease_facets *facets, crease_span corners, size_t so_far)
+{
+    crease_status status = CREASE_OK;
+    crease_polygon polygon = {0};
+    crease_span word;
+    while (status == CREASE_OK && crease_span_word(&corners, &word) && *word.at != '#')
+        status = crease_facets_add(context, facets, &polygon, vertex_of(word, so_far));
+    return status;
+}
+
+crease_status crease_obj_faces(
+    crease_context *context, const crease_source *source, crease_facets *facets)
+{
+    crease_cursor cursor = {.at = source->bytes, .end = source->bytes + source->size};
+    crease_status status = CREASE_OK;
+    crease_span line;
+    size_t vertices = 0;
+    while (status == CREASE_OK && crease_cursor_line(&cursor, &line)) {
+        const char *const corners = behind(line.at, line.end, "f");
+        vertices += vertex_data(line.at, line.end) != NULL;
+        if (corners)
+            status = add_face(context, facets, (crease_span){corners, line.end}, vertices);
+    }
     return status;
 }

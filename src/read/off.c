@@ -2,7 +2,7 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* OFF of Geomview, ascii and binary (big endian), with normals (N), colours (C) and texture
- * coordinates (ST): the vertices. */
+ * coordinates (ST): the vertices and the faces. */
 #include "base/memory.h"
 #include "read/binary.h"
 #include "read/colour.h"
@@ -19,6 +19,7 @@ typedef struct off {
     crease_cursor cursor;
     bool normals, colours, texture, binary;
     uint64_t vertices, faces;
+    const char *faces_at; /* binary: behind the vertices */
     crease_columns columns;
 } off;
 
@@ -87,7 +88,9 @@ static crease_status read_binary_counts(off *file)
         return crease_fail(file->context, CREASE_ERROR_FORMAT,
             "%s: byte %zu: promises %.0f vertices; the file is damaged, get it again",
             file->source->name, (size_t)(file->cursor.at - file->source->bytes), vertices);
+    const double faces = crease_cell_load(at + 4, CREASE_TYPE_INT32, CREASE_ORDER_BIG);
     file->vertices = (uint64_t)vertices;
+    file->faces = faces > 0 ? (uint64_t)faces : 0;
     file->cursor.at += 12;
     return CREASE_OK;
 }
@@ -215,6 +218,7 @@ static crease_status read_binary(off *file, crease_cloud **out)
     const size_t size = crease_columns_pack(&file->columns);
     if (file->vertices > (size_t)(file->cursor.end - file->cursor.at) / size)
         return fail_truncated(file);
+    file->faces_at = file->cursor.at + file->vertices * size;
     status = crease_columns_allocate(file->context, file->source, &file->columns, file->vertices);
     if (status == CREASE_OK)
         status = crease_columns_fill(file->context, &file->columns,
@@ -225,16 +229,115 @@ static crease_status read_binary(off *file, crease_cloud **out)
         (crease_place){.unit = "byte", .find = find_byte, .user = file}, out);
 }
 
-crease_status crease_off_read(crease_context *context, const crease_source *source,
-    const crease_read_options *options, crease_cloud **out)
+static crease_status read_file(off *file, crease_cloud **out)
 {
-    off file = {.context = context,
+    const crease_status status = read_header(file);
+    if (status != CREASE_OK)
+        return status;
+    return file->binary ? read_binary(file, out) : read_ascii(file, out);
+}
+
+static off open_file(
+    crease_context *context, const crease_source *source, const crease_read_options *options)
+{
+    return (off){.context = context,
         .source = source,
         .options = options,
         .cursor = {.at = source->bytes, .end = source->bytes + source->size}};
+}
+
+crease_status crease_off_read(crease_context *context, const crease_source *source,
+    const crease_read_options *options, crease_cloud **out)
+{
+    off file = open_file(context, source, options);
+    const crease_status status = read_file(&file, out);
+    crease_columns_free(&file.columns);
+    return status;
+}
+
+/* ------------------------------------------------------------------------------------- faces -- */
+
+static crease_status fail_faces(const off *file)
+{
+    return crease_fail(file->context, CREASE_ERROR_TRUNCATED,
+        "%s: byte %zu: ends before the %llu faces that its header promises; get the whole file, or "
+        "read "
+        "its vertices alone with --mesh-points 0",
+        file->source->name, file->source->size, (unsigned long long)file->faces);
+}
+
+/* "3 0 1 2", and a colour that says nothing here. */
+static crease_status add_line(off *file, crease_span line, crease_facets *facets)
+{
+    crease_polygon polygon = {0};
+    crease_status status = CREASE_OK;
+    crease_span word = line;
+    uint64_t corners = 0, vertex = 0;
+    if (!crease_span_word(&line, &word) || !crease_span_count(word, &corners))
+        return fail(file, "the count of a face's corners is no whole number:", word);
+    for (uint64_t i = 0; i < corners && status == CREASE_OK; i++)
+        status = crease_span_word(&line, &word) && crease_span_count(word, &vertex)
+            ? crease_facets_add(file->context, facets, &polygon, (double)vertex)
+            : fail(file, "a corner of a face is no whole number:", word);
+    return status;
+}
+
+static crease_status add_lines(off *file, crease_facets *facets)
+{
+    crease_span line;
+    crease_status status = CREASE_OK;
+    for (uint64_t i = 0; i < file->vertices + file->faces && status == CREASE_OK; i++) {
+        if (!next_line(&file->cursor, &line))
+            return i < file->vertices ? fail_truncated(file) : fail_faces(file);
+        if (i >= file->vertices)
+            status = add_line(file, line, facets);
+    }
+    return status;
+}
+
+/* The next whole number of four bytes; -1 at the end of the file. */
+static double take_number(off *file)
+{
+    if (file->cursor.end - file->cursor.at < 4)
+        return -1;
+    file->cursor.at += 4;
+    return crease_cell_load(
+        (const unsigned char *)file->cursor.at - 4, CREASE_TYPE_INT32, CREASE_ORDER_BIG);
+}
+
+/* Corners, their number before them, and a colour, the number of its values before it. */
+static crease_status add_record(off *file, crease_facets *facets)
+{
+    crease_polygon polygon = {0};
+    crease_status status = CREASE_OK;
+    const double corners = take_number(file);
+    if (corners < 0 || corners > (double)(file->cursor.end - file->cursor.at) / 4)
+        return fail_faces(file);
+    for (double i = 0; i < corners && status == CREASE_OK; i++)
+        status = crease_facets_add(file->context, facets, &polygon, take_number(file));
+    const double colours = take_number(file);
+    if (status == CREASE_OK &&
+        (colours < 0 || colours > (double)(file->cursor.end - file->cursor.at) / 4))
+        return fail_faces(file);
+    file->cursor.at += status == CREASE_OK ? 4 * (size_t)colours : 0;
+    return status;
+}
+
+crease_status crease_off_faces(
+    crease_context *context, const crease_source *source, crease_facets *facets)
+{
+    const crease_read_options options = crease_read_options_default();
+    off file = open_file(context, source, &options);
+    crease_cloud *cloud = NULL;
     crease_status status = read_header(&file);
-    if (status == CREASE_OK)
-        status = file.binary ? read_binary(&file, out) : read_ascii(&file, out);
+    if (status == CREASE_OK && file.binary)
+        status = read_binary(&file, &cloud);
+    if (status == CREASE_OK && !file.binary)
+        status = add_lines(&file, facets);
+    file.cursor.at = file.binary ? file.faces_at : file.cursor.at;
+    for (uint64_t i = 0; i < file.faces && file.binary && status == CREASE_OK; i++)
+        status = add_record(&file, facets);
+    crease_cloud_free(cloud);
     crease_columns_free(&file.columns);
     return status;
 }

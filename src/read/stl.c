@@ -2,8 +2,9 @@
 /* SPDX-FileCopyrightText: The crease authors */
 
 /* STL, ascii and binary: the corners of the triangles, each place once, in the order in which they
- * come first. */
+ * come first; and the triangles. */
 #include "base/memory.h"
+#include "cloud/weld.h"
 #include "read/binary.h"
 #include "read/formats.h"
 #include "read/table.h"
@@ -18,7 +19,9 @@ typedef struct stl {
     const crease_source *source;
     const crease_read_options *options;
     crease_columns columns;
-    uint32_t *corners;  /* of each point: the corner that showed it first */
+    uint32_t *points;  /* of each corner */
+    uint32_t *corners; /* of each point: the corner that showed it first */
+    size_t corner_count;
     crease_place place; /* of the corners */
 } stl;
 
@@ -36,56 +39,6 @@ bool crease_stl_is_binary(const char *head, size_t head_size, size_t file_size)
 /* ------------------------------------------------------------------------------------ merging --
  */
 
-/* The bits of the coordinates, -0 as 0. */
-static void key_of(const double point[3], uint64_t key[3])
-{
-    for (int c = 0; c < 3; c++) {
-        const double value = point[c] + 0.0;
-        memcpy(&key[c], &value, sizeof value);
-    }
-}
-
-static uint64_t hash(const uint64_t key[3])
-{
-    uint64_t mixed = 0;
-    for (int c = 0; c < 3; c++) {
-        mixed = (mixed ^ key[c]) * UINT64_C(0x9e3779b97f4a7c15);
-        mixed ^= mixed >> 29;
-    }
-    return mixed * UINT64_C(0xbf58476d1ce4e5b9) >> 20;
-}
-
-/* The place of the point in the table: its own, or the free one where it belongs. */
-static size_t find_slot(
-    const double *points, const uint32_t *slots, size_t mask, const uint64_t key[3])
-{
-    size_t slot = (size_t)hash(key) & mask;
-    for (; slots[slot]; slot = (slot + 1) & mask) {
-        uint64_t other[3];
-        key_of(points + 3 * (size_t)(slots[slot] - 1), other);
-        if (memcmp(other, key, sizeof other) == 0)
-            break;
-    }
-    return slot;
-}
-
-static void merge_corners(stl *file, uint32_t *slots, size_t mask)
-{
-    double *const points = file->columns.points;
-    uint32_t count = 0;
-    for (size_t i = 0; i < file->columns.rows; i++) {
-        uint64_t key[3];
-        key_of(points + 3 * i, key);
-        const size_t slot = find_slot(points, slots, mask, key);
-        if (slots[slot])
-            continue;
-        memmove(points + 3 * (size_t)count, points + 3 * i, 3 * sizeof *points);
-        file->corners[count] = (uint32_t)i;
-        slots[slot] = ++count;
-    }
-    file->columns.rows = count;
-}
-
 static size_t find_corner(const void *user, size_t row)
 {
     const stl *const file = user;
@@ -94,15 +47,18 @@ static size_t find_corner(const void *user, size_t row)
 
 static crease_status merge(stl *file, crease_cloud **out)
 {
-    size_t size = 16;
-    while (size < 2 * file->columns.rows)
-        size *= 2;
-    file->corners = crease_allocate(file->context, file->columns.rows, sizeof *file->corners);
-    uint32_t *slots = file->corners ? crease_allocate(file->context, size, sizeof *slots) : NULL;
-    if (!slots)
+    const size_t corners = file->columns.rows;
+    file->points = crease_allocate(file->context, corners, sizeof *file->points);
+    file->corners = crease_allocate(file->context, corners, sizeof *file->corners);
+    if (!file->points || !file->corners)
         return CREASE_ERROR_NO_MEMORY;
-    merge_corners(file, slots, size - 1);
-    free(slots);
+    const crease_status status = crease_weld(
+        file->context, file->columns.points, corners, file->points, &file->columns.rows);
+    if (status != CREASE_OK)
+        return status;
+    for (size_t i = corners; i-- > 0;)
+        file->corners[file->points[i]] = (uint32_t)i;
+    file->corner_count = corners;
     const crease_place place = {.unit = file->place.unit, .find = find_corner, .user = file};
     return crease_columns_finish(
         file->context, file->source, file->options, &file->columns, place, out);
@@ -223,12 +179,41 @@ static bool is_text(const crease_source *source)
     return true;
 }
 
+static crease_status read_file(stl *file, crease_cloud **out)
+{
+    return is_text(file->source) ? read_ascii(file, out) : read_binary(file, out);
+}
+
+static void close_file(stl *file)
+{
+    free(file->points);
+    free(file->corners);
+    crease_columns_free(&file->columns);
+}
+
 crease_status crease_stl_read(crease_context *context, const crease_source *source,
     const crease_read_options *options, crease_cloud **out)
 {
     stl file = {.context = context, .source = source, .options = options};
-    const crease_status status = is_text(source) ? read_ascii(&file, out) : read_binary(&file, out);
-    free(file.corners);
-    crease_columns_free(&file.columns);
+    const crease_status status = read_file(&file, out);
+    close_file(&file);
+    return status;
+}
+
+crease_status crease_stl_faces(
+    crease_context *context, const crease_source *source, crease_facets *facets)
+{
+    const crease_read_options options = crease_read_options_default();
+    stl file = {.context = context, .source = source, .options = &options};
+    crease_cloud *cloud = NULL;
+    crease_status status = read_file(&file, &cloud);
+    crease_polygon polygon = {0};
+    for (size_t i = 0; i < file.corner_count && status == CREASE_OK; i++) {
+        if (i % 3 == 0)
+            polygon = (crease_polygon){0};
+        status = crease_facets_add(context, facets, &polygon, file.points[i]);
+    }
+    crease_cloud_free(cloud);
+    close_file(&file);
     return status;
 }

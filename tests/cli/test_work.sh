@@ -9,6 +9,28 @@ expect 0 "3000 points" example panel --count 3000 -o panel.ply
 expect 2 "no example" example teapot -o teapot.ply
 expect 2 "takes neither" example cube --noise 1 -o cube2.ply
 
+# --- a mesh
+printf 'OFF\n8 6 0\n%s\n' "0 0 0
+3 0 0
+3 2 0
+0 2 0
+0 0 1
+3 0 1
+3 2 1
+0 2 1
+4 0 3 2 1
+4 4 5 6 7
+4 0 1 5 4
+4 1 2 6 5
+4 2 3 7 6
+4 3 0 4 7" >box.off
+expect 0 "8 vertices alone do not tell its shape" fit box.off -o box.step
+expect 0 "area 22, volume 6" info box.step
+expect 0 "box.off: 8 points" info box.off --mesh-points 0
+expect 0 "12 triangles" detect box.off -o box.ply
+sed '$s/7$/8/' box.off >wrong.off
+expect 3 "wrong.off: a face has vertex 8, counted from 0, of 8" info wrong.off
+
 # --- filter
 golden filter_panel.txt filter panel.ply -o filtered.ply -o filtered.csv -o filtered.png \
     -o filtered.html --report filtered.json

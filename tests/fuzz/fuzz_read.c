@@ -4,6 +4,7 @@
 /* Every reader, on any bytes. The first byte says which extension the file pretends to have, since
  * rows of numbers go by it. What is read must be a cloud that holds what it says; what is not must
  * have a sentence. */
+#include "facets/draw.h"
 #include "read/formats.h"
 
 #include <math.h>
@@ -30,6 +31,19 @@ static void look_at(const crease_cloud *cloud)
     (void)used;
 }
 
+/* Points on its faces, where it is a mesh. */
+static void draw_on(crease_context *context, const crease_source *source, const crease_cloud *cloud)
+{
+    crease_facets facets;
+    crease_cloud *drawn = NULL;
+    if (crease_source_faces(context, source, cloud, &facets) != CREASE_OK)
+        return;
+    if (facets.triangle_count && crease_facets_draw(context, &facets, 20, &drawn) == CREASE_OK)
+        look_at(drawn);
+    crease_cloud_free(drawn);
+    crease_facets_free(&facets);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
@@ -53,7 +67,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             abort();
         if (cloud)
             look_at(cloud);
-        else if (!*crease_context_message(context) && status != CREASE_ERROR_NO_MEMORY)
+        if (cloud && !options.skip_invalid)
+            draw_on(context, &source, cloud);
+        if (!cloud && !*crease_context_message(context) && status != CREASE_ERROR_NO_MEMORY)
             abort();
     }
     crease_cloud_free(cloud);

@@ -105,6 +105,16 @@ def test_invalid_points_are_left_out_on_demand_with_a_warning(tmp_path):
         assert len(crease.read(tmp_path / "holes.xyz", skip_invalid=True)) == 2
 
 
+def test_points_are_drawn_on_a_mesh_or_its_vertices_taken(tmp_path):
+    mesh = tmp_path / "square.obj"
+    mesh.write_text("v 0 0 5\nv 1 0 5\nv 1 1 5\nv 0 1 5\nf 1 2 3 4\n")
+    assert len(crease.read(mesh, mesh_points=0)) == 4
+    drawn = crease.read(mesh, mesh_points=500)
+    assert 400 < len(drawn) < 600 and np.allclose(drawn.points[:, 2], 5, atol=1e-12)
+    with pytest.warns(crease.InputWarning, match="4 vertices"):
+        assert len(crease.read(mesh)) > 9000
+
+
 def test_an_empty_cloud_is_a_cloud():
     cloud = crease.Cloud(np.empty((0, 3)), fields={"value": []})
     assert len(cloud) == 0 and cloud.points.shape == (0, 3) and len(cloud.fields["value"]) == 0

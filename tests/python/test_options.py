@@ -15,8 +15,8 @@ from crease import _fit
 
 TABLE = (Path(__file__).parents[2] / "cli/option.c").read_text()
 #: What methods or other calls do here, and what is for files larger than memory.
-ELSEWHERE = {"output", "creases", "points", "report", "skip_invalid", "json", "quiet", "help", "resume",
-             "scratch"}
+ELSEWHERE = {"output", "creases", "points", "report", "skip_invalid", "mesh_points", "json",
+             "quiet", "help", "resume", "scratch"}
 
 
 def program_options(command):
