@@ -698,11 +698,11 @@ CREASE_API crease_status crease_sheet_suits(
  * NUMERIC, NO_MEMORY, CANCELLED. */
 CREASE_API crease_status crease_sheet_fit(crease_context *context, const crease_cloud *cloud,
     const crease_sheet_options *options, crease_sheet **out);
-/** Tells whether a sheet carries the creases of its cloud: whether its points are no further from
- * it than their noise explains, the creases of the network lie on its lines, within half a spacing
- * but for a tenth of their length, and it bends sharply nowhere else within 2 spacings of a point;
- * or whether they lie on it within 1e-7 spacings, four points or more for each control point.
- * regions, network: of the same cloud. Errors: ARGUMENT (of another), NO_MEMORY, CANCELLED. */
+/** Tells whether a sheet carries the creases of its cloud: its points are no further from it than
+ * noise explains, nine tenths of the creases within half a spacing of its lines (or 3 sigma over
+ * the tangent of the bend, up to a spacing), it bends sharply nowhere else within 2 spacings of a
+ * point; or they lie on it within 1e-7 spacings, four or more for each control point. regions,
+ * network: of the same cloud. Errors: ARGUMENT (of another), NO_MEMORY, CANCELLED. */
 CREASE_API crease_status crease_sheet_carries(crease_context *context, const crease_sheet *sheet,
     const crease_regions *regions, const crease_network *network, bool *carries);
 

@@ -16,10 +16,13 @@ enum { MOST_PARTS = 4000, CHORDS = 64 };
 static const double EXACT = 1e-7; /* spacings that a deviation may be, of points without noise */
 static const double FEW =
     0.25; /* control points for each point, where exactness proves something */
-static const double EXCESS = 1.25;     /* of the residual over the noise */
-static const double ASTRAY = 0.5;      /* spacings between a crease and the sheet's line */
-static const double UNKNOWN = 3.0;     /* spacings from every crease: a bend of the sheet's own */
-static const double SHOWN = 2.0;       /* spacings from a point, at most, for a bend to count */
+static const double EXCESS = 1.25; /* of the residual over the noise */
+/* Spacings between a crease and the sheet's line, at most: what the points can tell is between. */
+static const double ASTRAY[2] = {0.5, 1.0};
+static const double TOLD = 3.0;    /* standard deviations between surfaces that points tell apart */
+static const double STEP = 0.25;   /* spacings between places along a curve */
+static const double UNKNOWN = 3.0; /* spacings from every crease: a bend of the sheet's own */
+static const double SHOWN = 2.0;   /* spacings from a point, at most, for a bend to count */
 static const double LEAST_BEND = 10.0; /* degrees */
 static const double TOLERATED = 0.1;   /* of the length of all creases, or of all bends */
 
@@ -139,13 +142,33 @@ static crease_status add_bends(
     return status;
 }
 
-/* Whether the creases run along bends. */
-static crease_status creases_bend(crease_context *context, const stations *creases,
-    const stations *bends, double spacing, bool *bend)
+/* How far a line may be from a crease: to where a point may as well be of either side. */
+static double leeway(double sigma, double dihedral, double spacing)
 {
+    const double bend = tan(0.017453292519943296 * fmin(fabs(180.0 - dihedral), 89.0));
+    return fmin(fmax(TOLD * sigma / bend, ASTRAY[0] * spacing), ASTRAY[1] * spacing);
+}
+
+/* Whether the creases run along bends. */
+static crease_status creases_bend(crease_context *context, const crease_network *network,
+    const stations *bends, double sigma, bool *bend)
+{
+    const double spacing = crease_network_spacing(network);
     stations astray = {0};
-    const crease_status status = sift(context, creases, bends, ASTRAY * spacing, false, &astray);
-    *bend = status == CREASE_OK && (double)astray.count <= TOLERATED * (double)creases->count;
+    size_t all = 0;
+    crease_status status = CREASE_OK;
+    for (size_t i = 0; i < crease_network_count(network) && status == CREASE_OK; i++) {
+        const crease_network_crease one = crease_network_at(network, i);
+        stations crease = {0};
+        status = add_curve(
+            context, crease_network_curves(network)[i], one.length, STEP * spacing, &crease);
+        if (status == CREASE_OK)
+            status =
+                sift(context, &crease, bends, leeway(sigma, one.angle, spacing), false, &astray);
+        all += crease.count;
+        free(crease.places);
+    }
+    *bend = status == CREASE_OK && (double)astray.count <= TOLERATED * (double)all;
     free(astray.places);
     return status;
 }
@@ -165,10 +188,10 @@ static crease_status bends_crease(crease_context *context, const crease_sheet *s
     return status;
 }
 
-static crease_status creases_agree(
-    crease_context *context, const crease_sheet *sheet, const crease_network *network, bool *agree)
+static crease_status creases_agree(crease_context *context, const crease_sheet *sheet,
+    const crease_network *network, double sigma, bool *agree)
 {
-    const double spacing = crease_network_spacing(network), step = 0.25 * spacing;
+    const double spacing = crease_network_spacing(network), step = STEP * spacing;
     stations creases = {0}, bends = {0};
     crease_status status = CREASE_OK;
     for (size_t i = 0; i < crease_network_count(network) && status == CREASE_OK; i++)
@@ -177,7 +200,7 @@ static crease_status creases_agree(
     for (size_t l = 0; l < sheet->line_count && status == CREASE_OK; l++)
         status = add_bends(context, sheet, l, step, &bends);
     if (status == CREASE_OK)
-        status = creases_bend(context, &creases, &bends, spacing, agree);
+        status = creases_bend(context, network, &bends, sigma, agree);
     if (status == CREASE_OK && *agree)
         status = bends_crease(context, sheet, &bends, &creases, spacing, agree);
     free(creases.places);
@@ -229,5 +252,5 @@ crease_status crease_sheet_carries(crease_context *context, const crease_sheet *
     crease_status status = residual_scale(context, sheet, regions, &scale);
     if (status != CREASE_OK || !(scale <= EXCESS * crease_regions_sigma(regions)))
         return status;
-    return creases_agree(context, sheet, network, carries);
+    return creases_agree(context, sheet, network, crease_regions_sigma(regions), carries);
 }

@@ -295,6 +295,48 @@ static void given_a_hip_roof_then_no_sheet_carries_its_creases(void **state)
     }
 }
 
+static double shallow_roof(double x, double y)
+{
+    (void)y;
+    return -0.25 * fabs(x - 0.5);
+}
+
+static double shifted; /* spacings */
+
+static double shifted_roof(double x, double y)
+{
+    return shallow_roof(x - shifted / SIDE, y);
+}
+
+/* Whether the sheet of a roof carries the crease of one that many spacings beside it. */
+static bool when_beside(scene *s, double spacings, double noise)
+{
+    bool carries = false;
+    shifted = spacings;
+    scene beside = given_heights(shifted_roof, noise);
+    when_divided(&beside, true);
+    assert_int_equal(
+        crease_network_find(beside.context, beside.regions, NULL, &beside.network), CREASE_OK);
+    assert_int_equal(
+        crease_sheet_carries(s->context, s->sheet, beside.regions, beside.network, &carries),
+        CREASE_OK);
+    free_scene(&beside);
+    return carries;
+}
+
+static void given_a_line_beside_the_crease_then_it_may_be_as_far_off_as_no_point_tells(void **state)
+{
+    (void)state;
+    for (int noisy = 0; noisy < 2; noisy++) {
+        const double noise = noisy ? 0.006 : 0.0006;
+        scene s = given_heights(shallow_roof, noise);
+        assert_int_equal(crease_sheet_fit(s.context, s.cloud, NULL, &s.sheet), CREASE_OK);
+        assert_int_equal(when_beside(&s, 0.75, noise), noisy);
+        assert_false(when_beside(&s, 1.5, noise));
+        free_scene(&s);
+    }
+}
+
 static void given_no_crease_then_any_sheet_will_do(void **state)
 {
     (void)state;
@@ -318,6 +360,8 @@ int main(void)
         cmocka_unit_test(given_creases_that_meet_inside_then_no_sheet_carries_them),
         cmocka_unit_test(given_a_break_line_aslant_then_the_sheet_carries_it),
         cmocka_unit_test(given_a_hip_roof_then_no_sheet_carries_its_creases),
+        cmocka_unit_test(
+            given_a_line_beside_the_crease_then_it_may_be_as_far_off_as_no_point_tells),
         cmocka_unit_test(given_no_crease_then_any_sheet_will_do),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
