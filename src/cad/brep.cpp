@@ -46,7 +46,7 @@ struct VertexShape {
 
 struct EdgeShape {
     SpaceCurve space;
-    TopoDS_Edge shape;
+    TopoDS_Edge shape; /* null when no curve goes along its points */
     size_t samples;
     double tolerance;
 };
@@ -61,6 +61,7 @@ class Assembly
     void make_vertices();
     void make_edge(const crease_edge &edge);
     void make_edges();
+    bool has_edges(const crease_face &face) const;
     TopoDS_Face make_face(const crease_face &face);
     void add_patch(const crease_face &face, TopoDS_Face &out);
     void add_band(const crease_face &face, TopoDS_Face &out);
@@ -134,8 +135,22 @@ void Assembly::make_edge(const crease_edge &from)
 
 void Assembly::make_edges()
 {
-    for (size_t i = 0; i < topology.edge_count; i++)
-        make_edge(topology.edges[i]);
+    for (size_t i = 0; i < topology.edge_count; i++) {
+        try {
+            make_edge(topology.edges[i]);
+        } catch (const Standard_Failure &) {
+            edges.push_back({{nullptr, 0.0, 0.0}, TopoDS_Edge(), 0, TOLERANCE});
+        }
+    }
+}
+
+bool Assembly::has_edges(const crease_face &face) const
+{
+    for (size_t i = 0; i < face.loop_count; i++)
+        for (size_t k = 0; k < face.loops[i].count; k++)
+            if (edges[face.loops[i].halves[k].edge].shape.IsNull())
+                return false;
+    return true;
 }
 
 /* ------------------------------------------------------------------------------- faces -- */
@@ -277,6 +292,8 @@ TopoDS_Face Assembly::make_face(const crease_face &face)
 void Assembly::set_tolerances()
 {
     for (size_t i = 0; i < topology.edge_count; i++) {
+        if (edges[i].shape.IsNull())
+            continue;
         builder.UpdateEdge(edges[i].shape, edges[i].tolerance);
         for (const int32_t end : topology.edges[i].vertices) {
             VertexShape &vertex = vertices[(size_t)end];
@@ -313,6 +330,10 @@ Brep Assembly::build()
     make_vertices();
     make_edges();
     for (size_t i = 0; i < topology.face_count; i++) {
+        if (!has_edges(topology.faces[i])) {
+            out.failed.push_back(topology.faces[i].region);
+            continue;
+        }
         try {
             faces.push_back(make_face(topology.faces[i]));
         } catch (const Standard_Failure &) {
