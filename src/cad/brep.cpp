@@ -325,26 +325,23 @@ TopoDS_Shape joined(const std::vector<TopoDS_Face> &faces)
 
 Brep Assembly::build()
 {
-    Brep out = {TopoDS_Shape(), {}, 0.0};
-    std::vector<TopoDS_Face> faces;
+    Brep out = {TopoDS_Shape(), {}, {}, 0.0};
     make_vertices();
     make_edges();
     for (size_t i = 0; i < topology.face_count; i++) {
-        if (!has_edges(topology.faces[i])) {
-            out.failed.push_back(topology.faces[i].region);
+        if (!has_edges(topology.faces[i]))
             continue;
-        }
         try {
-            faces.push_back(make_face(topology.faces[i]));
-        } catch (const Standard_Failure &) {
-            out.failed.push_back(topology.faces[i].region);
+            out.faces.push_back(make_face(topology.faces[i]));
+            out.regions.push_back(topology.faces[i].region);
+        } catch (const Standard_Failure &) { /* one face less */
         }
     }
     set_tolerances();
     for (const EdgeShape &edge : edges)
         out.tolerance = std::max(out.tolerance, edge.tolerance / scaling.factor);
-    if (!faces.empty())
-        out.shape = joined(faces);
+    if (!out.faces.empty())
+        out.shape = joined(out.faces);
     return out;
 }
 

@@ -9,6 +9,7 @@
 #include "cad/sheet.hpp"
 #include "topology/topology.h"
 
+#include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 
 #include <vector>
@@ -17,9 +18,10 @@ namespace crease_cad
 {
 
 struct Brep {
-    TopoDS_Shape shape;           /* solid, shell, or a compound of them; null without faces */
-    std::vector<uint32_t> failed; /* regions whose face could not be made */
-    double tolerance;             /* the largest of an edge, in the cloud's unit */
+    TopoDS_Shape shape;             /* solid, shell, or a compound of them; null without faces */
+    std::vector<TopoDS_Face> faces; /* each as it was made */
+    std::vector<uint32_t> regions;  /* of each of them */
+    double tolerance;               /* the largest of an edge, in the cloud's unit */
 };
 
 /* Solids when all faces are there and close, their faces turned outwards. */

@@ -11,7 +11,6 @@
 #include <BRep_Builder.hxx>
 #include <BRep_TVertex.hxx>
 #include <BRep_Tool.hxx>
-#include <ShapeFix_Shape.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
@@ -98,9 +97,7 @@ static TopoDS_Shape mended(const TopoDS_Shape &shape, double spacing)
         valid = BRepCheck_Analyzer(shape).IsValid();
     if (valid)
         return shape;
-    ShapeFix_Shape fix(shape);
-    fix.Perform();
-    const TopoDS_Shape fixed = fix.Shape();
+    const TopoDS_Shape fixed = healed(shape);
     const bool fine = !fixed.IsNull() && BRepCheck_Analyzer(fixed).IsValid() &&
         face_count(fixed) == face_count(shape) && is_closed(fixed) == is_closed(shape);
     return fine ? fixed : shape;

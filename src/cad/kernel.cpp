@@ -8,6 +8,7 @@
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
 #include <STEPControl_Controller.hxx>
+#include <ShapeFix_Shape.hxx>
 #include <Standard_Failure.hxx>
 #include <Standard_OutOfMemory.hxx>
 
@@ -23,6 +24,17 @@ void require(crease_status status)
 {
     if (status != CREASE_OK)
         throw Failure{status, ""};
+}
+
+TopoDS_Shape healed(const TopoDS_Shape &shape)
+{
+    try {
+        ShapeFix_Shape fix(shape);
+        fix.Perform();
+        return fix.Shape();
+    } catch (const Standard_Failure &) {
+        return TopoDS_Shape();
+    }
 }
 
 Kernel::Kernel() : lock(kernel_mutex)

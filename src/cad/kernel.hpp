@@ -8,6 +8,7 @@
 #include "crease/crease_cad.h"
 
 #include <Message_SequenceOfPrinters.hxx>
+#include <TopoDS_Shape.hxx>
 
 #include <functional>
 #include <mutex>
@@ -28,6 +29,9 @@ struct Failure {
 
 /* Throws when a call of the C library failed; its sentence stays. */
 void require(crease_status status);
+
+/* What OpenCASCADE's healing makes of a shape; null where it gives up. */
+TopoDS_Shape healed(const TopoDS_Shape &shape);
 
 /* OpenCASCADE's parameters and messages belong to the whole process: whoever holds this has them
  * alone, and its messages go nowhere. */

@@ -28,7 +28,6 @@
 namespace crease_cad
 {
 
-static constexpr double MESH_TOLERANCE = 1e-4; /* of the diagonal */
 static constexpr double INTEGRAL_ERROR = 1e-7; /* relative, of areas and volumes */
 
 static std::vector<char> bytes_of(const TopoDS_Shape &shape)

@@ -12,6 +12,9 @@
 namespace crease_cad
 {
 
+/* Within which a model is triangulated to measure it, of the diagonal. */
+constexpr double MESH_TOLERANCE = 1e-4;
+
 struct FaceFact {
     uint32_t carrier;
     double area;

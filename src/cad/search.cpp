@@ -19,6 +19,8 @@ namespace crease_cad
 /* Seconds of the processor after which an attempt hangs, and all together; work is limited by
  * Effort. */
 static constexpr unsigned HUNG = 12, MOST_SECONDS = 20;
+static constexpr unsigned LAST_RESORT =
+    120; /* nothing comes after it, but its faces take their time */
 static constexpr double GOOD_LOSS = 0.04; /* of a result: no other way is tried */
 
 /* Regions that join smoothly may be united where nothing closed before: soon where some are free
@@ -67,10 +69,17 @@ static double seconds_apart()
         1e-6 * (double)(usage.ru_utime.tv_usec + usage.ru_stime.tv_usec);
 }
 
+static bool is_last_resort(const Step &step)
+{
+    return step.way == lay_out_rest || step.way == lay_out_faces;
+}
+
 /* The seconds of one arrangement are whole, and at least one. */
 static Bounds bounds_of(const Search &search, const Step &step)
 {
     Bounds out = bounds;
+    if (is_last_resort(step))
+        out.seconds = LAST_RESORT;
     if (is_arrangement(step))
         out.seconds = std::min(HUNG, 1 + (unsigned)std::max(0.0, MOST_SECONDS - search.arranging));
     return out;

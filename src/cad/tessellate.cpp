@@ -61,10 +61,21 @@ double diagonal(const TopoDS_Shape &shape)
     return box.IsVoid() ? 0.0 : std::sqrt(box.SquareExtent());
 }
 
-Triangles tessellate(const TopoDS_Shape &shape, double tolerance)
+void tessellate_some(const TopoDS_Shape &shape, double tolerance)
 {
     const double within = tolerance > 0.0 ? tolerance : FINE * diagonal(shape);
     BRepMesh_IncrementalMesh(shape, within, false, GREATEST_ANGLE, true);
+}
+
+bool is_tessellated(const TopoDS_Face &face)
+{
+    TopLoc_Location location;
+    return !BRep_Tool::Triangulation(face, location).IsNull();
+}
+
+Triangles tessellate(const TopoDS_Shape &shape, double tolerance)
+{
+    tessellate_some(shape, tolerance);
     TopTools_IndexedMapOfShape faces;
     TopExp::MapShapes(shape, TopAbs_FACE, faces);
     Triangles out;

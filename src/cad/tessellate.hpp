@@ -5,6 +5,7 @@
 #ifndef CREASE_CAD_TESSELLATE_HPP
 #define CREASE_CAD_TESSELLATE_HPP
 
+#include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
 
 #include <cstdint>
@@ -27,6 +28,9 @@ double diagonal(const TopoDS_Shape &shape);
  * on their edges. 0: 1/100000 of the diagonal. Faces are numbered as TopExp finds them. Throws
  * Failure when a face cannot be triangulated. */
 Triangles tessellate(const TopoDS_Shape &shape, double tolerance);
+/* Triangulates the faces that can be. */
+void tessellate_some(const TopoDS_Shape &shape, double tolerance);
+bool is_tessellated(const TopoDS_Face &face);
 
 } // namespace crease_cad
 

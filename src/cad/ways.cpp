@@ -6,7 +6,9 @@
 #include "cad/arrangement.hpp"
 #include "cad/brep.hpp"
 #include "cad/closing.hpp"
+#include "cad/outcome.hpp"
 #include "cad/rounding.hpp"
+#include "cad/tessellate.hpp"
 
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -104,17 +106,33 @@ Attempt arrange_shells(const Job &job, double margin)
     return {shells_of(faces), ""};
 }
 
-/* The topology's faces where they close, and the regions that have one. */
-static TopoDS_Shape closed_faces(const Job &job, std::vector<bool> &have)
+/* The topology's faces where they close and can be triangulated, turned so that neighbours agree,
+ * and the regions that have one. */
+static std::vector<TopoDS_Face> closed_faces(const Job &job, std::vector<bool> &have)
 {
-    const crease_topology &topology = job.topology();
-    const Brep brep = brep_of(topology, job.inwards());
-    have.assign(topology.region_count, false);
-    for (size_t i = 0; i < topology.face_count && !brep.shape.IsNull(); i++)
-        have[topology.faces[i].region] = true;
-    for (const uint32_t region : brep.failed)
-        have[region] = false;
-    return brep.shape;
+    const Brep brep = brep_of(job.topology(), job.inwards());
+    std::vector<TopoDS_Face> out;
+    have.assign(job.topology().region_count, false);
+    if (!brep.shape.IsNull())
+        tessellate_some(brep.shape, MESH_TOLERANCE * job.diagonal);
+    for (TopExp_Explorer it(brep.shape, TopAbs_FACE); it.More(); it.Next())
+        for (size_t i = 0; i < brep.faces.size(); i++)
+            if (it.Current().IsSame(brep.faces[i]) && is_tessellated(brep.faces[i])) {
+                have[brep.regions[i]] = true;
+                out.push_back(TopoDS::Face(it.Current()));
+            }
+    return out;
+}
+
+/* Faces that cannot be triangulated are left out: no other face should be lost with them. */
+static void lay_out(
+    const Job &job, const TopoDS_Face &face, const BRep_Builder &builder, TopoDS_Compound &out)
+{
+    if (face.IsNull())
+        return;
+    tessellate_some(face, MESH_TOLERANCE * job.diagonal);
+    if (is_tessellated(face))
+        builder.Add(out, face);
 }
 
 Attempt lay_out_rest(const Job &job, double margin)
@@ -123,12 +141,11 @@ Attempt lay_out_rest(const Job &job, double margin)
     TopoDS_Compound compound;
     std::vector<bool> have;
     builder.MakeCompound(compound);
-    for (TopExp_Explorer it(closed_faces(job, have), TopAbs_FACE); it.More(); it.Next())
-        builder.Add(compound, it.Current());
+    for (const TopoDS_Face &face : closed_faces(job, have))
+        builder.Add(compound, face);
     for (const Carrier &carrier : job.carriers)
         if (!carrier.points.empty() && !have[carrier.region])
-            if (const TopoDS_Face face = extend(job, carrier, margin).face; !face.IsNull())
-                builder.Add(compound, face);
+            lay_out(job, extend(job, carrier, margin).face, builder, compound);
     return {compound, ""};
 }
 
@@ -138,7 +155,7 @@ Attempt lay_out_faces(const Job &job, double margin)
     TopoDS_Compound compound;
     builder.MakeCompound(compound);
     for (const Supported &face : extend_all(job, {}, margin))
-        builder.Add(compound, face.extended.face);
+        lay_out(job, face.extended.face, builder, compound);
     return {compound, ""};
 }
 

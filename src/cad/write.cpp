@@ -7,7 +7,6 @@
 #include "cad/shell.hpp"
 
 #include <BRepCheck_Analyzer.hxx>
-#include <ShapeFix_Shape.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 
@@ -45,9 +44,7 @@ static TopoDS_Shape valid_shape(const TopoDS_Shape &shape, const std::vector<Pat
     const BRepCheck_Analyzer check(shape);
     if (check.IsValid())
         return shape;
-    ShapeFix_Shape fix(shape);
-    fix.Perform();
-    const TopoDS_Shape fixed = fix.Shape();
+    const TopoDS_Shape fixed = healed(shape);
     if (!fixed.IsNull() && BRepCheck_Analyzer(fixed).IsValid())
         return fixed;
     throw Failure{CREASE_ERROR_NUMERIC,

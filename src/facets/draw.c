@@ -57,10 +57,12 @@ bool crease_facets_dense(const crease_facets *facets)
     return facets->vertex_count >= LEAST_VERTICES && large <= SHARE * area;
 }
 
-static size_t points_for(const crease_shading *shading)
+/* No fewer than the vertices: who made the mesh knew why. */
+static size_t points_for(const crease_facets *facets, const crease_shading *shading)
 {
     const double points = ACROSS * ACROSS * shading->area / (shading->narrow * shading->narrow);
-    return (size_t)fmin(fmax(points, LEAST_POINTS), MOST_POINTS);
+    const double least = fmax(LEAST_POINTS, (double)facets->vertex_count);
+    return (size_t)fmin(fmax(points, least), MOST_POINTS);
 }
 
 /* ----------------------------------------------------------------------------- candidates -- */
@@ -176,8 +178,8 @@ crease_status crease_facets_draw(
             "--mesh-points 0",
             facets->name);
     if (status == CREASE_OK)
-        status = draw(
-            context, facets, &shading, wanted < 0 ? points_for(&shading) : (size_t)wanted, out);
+        status = draw(context, facets, &shading,
+            wanted < 0 ? points_for(facets, &shading) : (size_t)wanted, out);
     crease_shading_free(&shading);
     return status;
 }
