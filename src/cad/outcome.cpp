@@ -60,7 +60,7 @@ static Summary summarise(const TopoDS_Shape &shape)
     Summary out = {};
     out.closed = is_closed(shape);
     out.together = count_of(shape, TopAbs_SHELL) == 1 || count_of(shape, TopAbs_FACE) == 1;
-    out.solids = out.closed ? count_of(shape, TopAbs_SOLID) : 0;
+    out.solids = out.closed ? (uint32_t)count_of(shape, TopAbs_SOLID) : 0;
     if (out.solids > 0)
         out.volume = std::max(0.0, volume_of(shape, INTEGRAL_ERROR));
     return out;
@@ -89,7 +89,7 @@ static double length_of(const TopoDS_Edge &edge)
 static EdgeFact fact_of(const TopoDS_Edge &edge, const TopTools_ListOfShape &around,
     const TopTools_IndexedMapOfShape &faces)
 {
-    EdgeFact fact = {{UINT32_MAX, UINT32_MAX}, false, length_of(edge), 0.0, 0};
+    EdgeFact fact = {{UINT32_MAX, UINT32_MAX}, 0, 0, length_of(edge), 0.0};
     if (around.IsEmpty())
         return fact;
     const TopoDS_Face one = TopoDS::Face(around.First()), other = TopoDS::Face(around.Last());
@@ -98,7 +98,7 @@ static EdgeFact fact_of(const TopoDS_Edge &edge, const TopTools_ListOfShape &aro
         return fact;
     fact.faces[1] = (uint32_t)faces.FindIndex(other) - 1;
     if (one.IsSame(other)) {
-        fact.smooth = true;
+        fact.smooth = 1;
         fact.angle = 180.0;
         return fact;
     }
@@ -119,7 +119,7 @@ static void add_edges(const TopoDS_Shape &shape, Outcome &out)
         if (BRep_Tool::Degenerated(edge))
             continue;
         EdgeFact fact = fact_of(edge, around(i), faces);
-        fact.pole_count = add_cubic_curve(edge, out.poles, out.knots);
+        fact.pole_count = (uint32_t)add_cubic_curve(edge, out.poles, out.knots);
         out.edges.push_back(fact);
     }
 }

@@ -15,24 +15,26 @@ namespace crease_cad
 /* Within which a model is triangulated to measure it, of the diagonal. */
 constexpr double MESH_TOLERANCE = 1e-4;
 
+/* These go from process to process byte by byte, so that there are no gaps between their members.
+ */
 struct FaceFact {
-    uint32_t carrier;
+    uint64_t carrier;
     double area;
 };
 
 struct EdgeFact {
-    uint32_t faces[2]; /* see crease_part_edge */
-    bool smooth;
+    uint32_t faces[2];   /* see crease_part_edge */
+    uint32_t smooth;     /* 1 or 0 */
+    uint32_t pole_count; /* of its curve */
     double length, angle;
-    size_t pole_count; /* of its curve */
 };
 
 struct Summary {
-    bool valid;    /* OpenCASCADE finds no fault */
-    bool closed;   /* every edge has two faces */
-    bool together; /* one set of faces connected by edges */
-    size_t solids; /* 0 unless all faces close */
-    double volume; /* of these */
+    uint32_t valid;    /* 1: OpenCASCADE finds no fault */
+    uint32_t closed;   /* 1: every edge has two faces */
+    uint32_t together; /* 1: one set of faces connected by edges */
+    uint32_t solids;   /* 0 unless all faces close */
+    double volume;     /* of these */
 };
 
 struct Outcome {

@@ -73,12 +73,12 @@ static void add_edges(crease_context *context, const Judged &best, crease_part &
     const double *knots = outcome.knots.data(), *poles = outcome.poles.data();
     for (const EdgeFact &fact : outcome.edges) {
         part.edges.push_back(
-            {{fact.faces[0], fact.faces[1]}, fact.smooth, fact.length, angle_of(fact, solid)});
+            {{fact.faces[0], fact.faces[1]}, fact.smooth != 0, fact.length, angle_of(fact, solid)});
         part.curves.push_back(nullptr);
         require(
             crease_curve_create(context, 4, fact.pole_count, knots, poles, &part.curves.back()));
         knots += fact.pole_count + 4;
-        poles += 3 * fact.pole_count;
+        poles += 3 * (size_t)fact.pole_count;
     }
 }
 
